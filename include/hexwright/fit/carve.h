@@ -1,0 +1,42 @@
+// Keeps the hexes of a background mesh that lie inside (or outside) a surface, as a manifold set.
+//
+// Based on: Jacobson et al. 2013 and Barill et al. 2018 (winding number); docs/algorithms/fit.md,
+// "Carve".
+#pragma once
+
+#include <vector>
+
+#include "hexwright/base/context.h"
+#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright {
+
+enum class Side { Inside, Outside, Both };
+
+struct CarveOptions {
+  Side side = Side::Inside;
+  double keep_fraction = 0.5;  ///< filled fraction above which a hex is kept
+  double visible_normal =
+      0.1;  ///< least n . d of a direction d that sees all quads around a boundary vertex
+  double min_component_share =
+      0.01;  ///< inside components smaller than this share of the largest are dropped
+};
+
+struct CarveResult {
+  std::vector<char> is_kept;  ///< per hex of the background: 1 = inside part
+  std::size_t num_flips = 0;  ///< hexes changed to make the kept set manifold
+  std::size_t num_bad_verts =
+      0;  ///< boundary vertices the repair could not mend (0 in a usable result)
+  std::size_t num_components = 0;
+  long euler_characteristic = 0;  ///< of the kept set's boundary
+  std::vector<Vec3> lost;         ///< places where a part or gap thinner than the grid was lost
+};
+
+CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
+                  const CarveOptions& options, const Context& context);
+
+/// The kept hexes as a mesh of their own.
+HexMesh extract_hexes(const HexMesh& mesh, const std::vector<char>& is_kept);
+
+}  // namespace hexwright

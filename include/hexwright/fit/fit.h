@@ -1,0 +1,65 @@
+// Fits a hex mesh to a surface with sharp features; no element is ever inverted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hexwright/base/context.h"
+#include "hexwright/fit/carve.h"
+#include "hexwright/geometry/feature_graph.h"
+#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright {
+
+enum class Padding {
+  Everywhere,  ///< one layer under the whole boundary, then layers under patches that need one
+  Selective    ///< layers only where a patch's curves or corners cannot do without
+};
+
+struct FitOptions {
+  CarveOptions carve;
+  bool do_carve = true;  ///< false: the mesh already stands for the object
+  Padding padding = Padding::Selective;
+  FeatureOptions features;  ///< min_length is set by the stage from the mesh's edge length
+  double snap_quality =
+      0.2;  ///< boundary vertices move to their targets while the scaled Jacobian stays above
+};
+
+/// What became of one feature curve.
+struct CurveOutcome {
+  CurveId curve;
+  bool is_mapped = false;
+  double max_residual = 0;  ///< world units, when mapped
+  std::string reason;       ///< why it was dropped
+};
+
+/// A place where the surface was not reached.
+struct Miss {
+  Vec3 position;
+  double distance = 0;  ///< world units
+};
+
+struct FitReport {
+  CarveResult carve;
+  std::size_t num_hexes_carved = 0, num_hexes_padded = 0;
+  std::size_t num_curves = 0, num_curves_mapped = 0;
+  double curve_length = 0, curve_length_mapped = 0;
+  std::size_t num_corners = 0, num_corners_mapped = 0;
+  std::vector<CurveOutcome> curves;
+  std::vector<Miss> misses;  ///< boundary vertices farther than 2% of their edge length from their
+                             ///< target, worst first
+  std::vector<std::pair<std::string, double>> seconds;  ///< per pass
+};
+
+struct FitResult {
+  HexMesh mesh;  ///< labels carry patches, curves and corners; empty when nothing was kept
+  FitReport report;
+};
+
+/// Requires: every corner of every hex of `background` has a positive Jacobian.
+/// Guarantees: so has the result. Errors: BadArgument when the requirement fails (names the hex).
+FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
+              const Context& context);
+
+}  // namespace hexwright

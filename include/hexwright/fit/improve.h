@@ -1,0 +1,25 @@
+// Improves a hex mesh's shape without changing its connectivity, never inverting an element.
+#pragma once
+
+#include "hexwright/base/context.h"
+#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright {
+
+struct ImproveOptions {
+  int max_rounds = 20;
+  double goal = 1.0;                      ///< stop when the least scaled Jacobian reaches this
+  const SurfaceTree* slide_on = nullptr;  ///< boundary vertices slide on it; null keeps them fixed
+};
+
+struct ImproveReport {
+  double min_before = 0, min_after = 0, avg_before = 0, avg_after = 0;
+  HexId worst_hex;
+  bool worst_is_fixed = false;  ///< all vertices of the worst corner are held by the fixed boundary
+};
+
+/// Starts from any mesh; inverted elements are untangled first where that is possible.
+ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Context& context);
+
+}  // namespace hexwright

@@ -1,0 +1,62 @@
+// Sharp features of a surface: crease curves, corners, and the smooth patches between them.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+struct FeatureOptions {
+  double crease_angle =
+      50 * std::numbers::pi / 180;  ///< deviation of the two normals from flat, radians
+  double turn_angle =
+      50 * std::numbers::pi / 180;  ///< a curve turning by more has a corner there, radians
+  double min_length = 0;  ///< dangling chains and loops shorter than this (world units) are pruned
+  /// Creases given by the user, as pairs of surface vertices, taken besides the angle's.
+  std::vector<std::array<VertId, 2>> extra_edges;
+};
+
+/// A chain of surface vertices between two corners, or a closed loop.
+struct FeatureCurve {
+  std::vector<VertId> verts;       ///< a loop repeats its first vertex at the end
+  std::vector<double> arc_length;  ///< per vertex of the chain, from 0 to length()
+  bool is_closed = false;          ///< a loop without a corner
+  double length() const { return arc_length.empty() ? 0 : arc_length.back(); }
+};
+
+struct FeatureGraph {
+  IdVector<CurveId, FeatureCurve> curves;
+  std::vector<VertId> corners;  ///< surface vertices where curves end, meet or turn; sorted
+
+  bool empty() const { return curves.empty() && corners.empty(); }
+  double total_length() const;
+};
+
+/// Creases by dihedral angle, boundary and non-manifold edges, and the user's; chained, pruned,
+/// with corners.
+FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options);
+
+/// Patch of each triangle: components connected across edges that are on none of the curves with
+/// `is_barrier` set. An empty span means all curves separate.
+IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,
+                                         std::span<const char> is_barrier = {});
+
+/// The point nearest to a position on a curve, restricted to an interval of its arc length.
+struct CurvePoint {
+  Vec3 point;
+  Vec3 tangent;  ///< unit
+  double arc = 0;
+  double distance_sq = 0;
+};
+CurvePoint closest_on_curve(const TriMesh& surface, const FeatureCurve& curve, const Vec3& p);
+/// Considers only arcs in [arc_lo, arc_hi]; a closed curve wraps around.
+CurvePoint closest_on_curve(const TriMesh& surface, const FeatureCurve& curve, const Vec3& p,
+                            double arc_lo, double arc_hi);
+/// The point at an arc length (clamped, or wrapped on a closed curve).
+CurvePoint point_at_arc(const TriMesh& surface, const FeatureCurve& curve, double arc);
+
+}  // namespace hexwright

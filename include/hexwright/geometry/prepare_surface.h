@@ -1,0 +1,39 @@
+// From the triangles of a file to a surface the pipeline can trust: welded, without degenerate or
+// stray elements, oriented as well as it can be, with everything that was found said.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hexwright/base/context.h"
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+/// What was found and changed. Counts are of the input.
+struct SurfaceDiagnosis {
+  std::size_t num_welded_verts = 0;     ///< vertices merged into an equal or nearly equal one
+  std::size_t num_degenerate_tris = 0;  ///< dropped: zero area or repeated vertex
+  std::size_t num_duplicate_tris = 0;   ///< dropped: same three vertices as an earlier one
+  std::size_t num_boundary_edges = 0;   ///< after the clean-up: edges with one triangle
+  std::size_t num_nonmanifold_edges =
+      0;                             ///< after the clean-up: edges with three or more triangles
+  std::size_t num_flipped_tris = 0;  ///< re-oriented to agree with their component
+  bool is_flipped_whole = false;     ///< the surface pointed inwards and was turned as a whole
+  bool is_closed = false;  ///< every edge has exactly two, consistently oriented triangles
+  std::vector<std::string> warnings;  ///< one sentence each, for the user
+};
+
+struct PreparedSurface {
+  TriMesh mesh;
+  IdVector<TriId, TriId> source_tri;  ///< per triangle: its id in the input
+  SurfaceDiagnosis diagnosis;
+};
+
+/// Welds, cleans and orients. Tolerances are relative to the box's diagonal.
+/// Throws Error{BadGeometry} when nothing remains to mesh: no triangles, coordinates not finite
+/// (names the vertex), extent so large or small that doubles overflow or vanish, all triangles
+/// degenerate, or no enclosed volume (a flat sheet). The message says what to do.
+PreparedSurface prepare_surface(const TriMesh& input, const Context& context);
+
+}  // namespace hexwright

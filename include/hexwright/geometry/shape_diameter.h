@@ -1,0 +1,42 @@
+// Local thickness of a solid, by rays cast inwards.
+//
+// Based on: Shapira, Shamir, Cohen-Or, "Consistent mesh partitioning and skeletonisation using the
+// shape diameter function", The Visual Computer 24, 2008. The sizing of Pitzalis et al. 2021,
+// section 6.1.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "hexwright/base/context.h"
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+struct ShapeDiameterOptions {
+  double cone_angle = 2 * std::numbers::pi / 3;  ///< full opening of the cone, radians
+  int num_rays = 25;                             ///< rays per sample
+};
+
+/// Shape diameter per triangle, in world units; infinity where no ray hits a facing wall (open or
+/// flipped input). Robust at any scale and position: rays are cast in normalised coordinates.
+IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
+                                               const ShapeDiameterOptions& options,
+                                               const Context& context);
+
+/// A point on the surface and the distance to the walls that face it, inside and outside (infinity
+/// when none).
+struct WallSample {
+  Vec3 point;
+  TriId tri;
+  double inner = 0;  ///< least thickness of the solid here
+  double outer = 0;  ///< least width of the gap outside here
+};
+
+/// Samples the surface every `spacing` (at least once per triangle) and measures the opposite
+/// walls: the least (length x cosine) over inward rays within 36 degrees that hit a triangle facing
+/// back (n . n' < -0.8).
+std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
+                                              const Context& context);
+
+}  // namespace hexwright

@@ -1,0 +1,68 @@
+// Closest point and generalised winding number on any triangle soup, from one bounding volume
+// hierarchy.
+//
+// Based on: Barill, Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds",
+// ACM TOG 37(4), 2018; Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using
+// Generalized Winding Numbers", ACM TOG 32(4), 2013.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+struct ClosestPoint {
+  TriId tri;
+  Vec3 point;
+  double distance_sq = std::numeric_limits<double>::infinity();
+};
+
+/// Restricts a closest-point query. The defaults restrict nothing.
+struct ClosestFilter {
+  double max_distance = std::numeric_limits<double>::infinity();  ///< farther points are not found
+  Vec3 normal;             ///< unit vector compared with triangle normals when min_cosine >= -1
+  double min_cosine = -2;  ///< keep triangles with normal . tri_normal >= min_cosine
+  PatchId patch;           ///< keep triangles of this patch when valid (see set_patches)
+};
+
+/// Immutable after construction but for set_patches; queries are thread-safe and deterministic:
+/// among equally near points the lowest triangle id wins.
+class SurfaceTree {
+ public:
+  explicit SurfaceTree(TriMesh surface);
+  ~SurfaceTree();
+  SurfaceTree(SurfaceTree&&) noexcept;
+  SurfaceTree& operator=(SurfaceTree&&) noexcept;
+
+  const TriMesh& surface() const;
+  const Box3& box() const;
+  /// Unit normal by orientation; zero for a degenerate triangle.
+  const Vec3& normal(TriId t) const;
+
+  /// Gives each triangle its patch, for filtered queries. One entry per triangle.
+  void set_patches(IdVector<TriId, PatchId> tri_to_patch);
+  PatchId patch(TriId t) const;
+
+  /// The nearest surface point; absent only when the filter excludes everything (or the surface is
+  /// empty).
+  std::optional<ClosestPoint> closest(const Vec3& p, const ClosestFilter& filter = {}) const;
+  /// Distance to the surface, infinity when it is empty.
+  double distance(const Vec3& p) const;
+
+  /// Generalised winding number: 1 inside, 0 outside for a closed, outward-oriented surface; in
+  /// between for open ones. Far nodes count as dipoles when farther than `accuracy` times their
+  /// radius.
+  double winding_number(const Vec3& p, double accuracy = 2.3) const;
+  /// winding_number(p) > 0.5.
+  bool is_inside(const Vec3& p) const { return winding_number(p) > 0.5; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hexwright

@@ -1,0 +1,50 @@
+// Where the grid must be fine: builds the adaptive grid of a surface.
+//
+// Based on: Pitzalis et al. 2021, section 6.1 (thickness); docs/algorithms/sizing.md (deviation and
+// opposite walls).
+#pragma once
+
+#include <vector>
+
+#include "hexwright/base/context.h"
+#include "hexwright/geometry/feature_graph.h"
+#include "hexwright/grid/grid.h"
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+enum class Sizing {
+  Deviation,  ///< departure from the cells' planes, and opposite walls (the default)
+  Thickness   ///< the paper's: a cell's edge is at most half the least shape diameter in it
+};
+
+struct SizingOptions {
+  Sizing sizing = Sizing::Deviation;
+  double tolerance = 0.005;  ///< distance goal, share of the box's diagonal
+  double deviation_factor =
+      2;                      ///< split when the spread about the plane exceeds factor x tolerance
+  double wall_factor = 0.75;  ///< split when factor x edge exceeds the wall's distance
+  double margin = 0.02;       ///< room around the object on each side, share of its largest extent
+  int min_level = 2;          ///< cells that meet the surface are at least this deep
+  int max_level = 9;          ///< none is deeper
+  double min_edge = 0.005;  ///< Deviation: no cell is split below this edge, share of the diagonal
+  std::size_t max_cells = 2'000'000;  ///< budget of leaves
+};
+
+struct SizingResult {
+  Grid grid;
+  bool hit_cell_budget =
+      false;  ///< refinement stopped level-wise because max_cells would have been exceeded
+  int reached_level = 0;
+  std::vector<std::size_t> splits_by_reason;  ///< indexed like kSplitReasons
+};
+inline constexpr const char* kSplitReasons[] = {"minimum level", "deviation", "wall", "thickness"};
+
+/// Builds the grid breadth first, so that a budget stops at a level and not in a corner.
+SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
+                        const SizingOptions& options, const Context& context);
+
+/// The root cube around a box: centred, with the margin on each side.
+GridFrame root_frame(const Box3& box, double margin);
+
+}  // namespace hexwright

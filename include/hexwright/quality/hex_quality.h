@@ -1,0 +1,48 @@
+// Geometric quality of hexahedra.
+//
+// Based on: Stimpson, Ernst, Knupp, Pebay, Thompson, "The Verdict Geometric Quality Library",
+// SAND2007-1751 (scaled Jacobian); Johnen, Weill, Remacle, "Robust and efficient validation of the
+// linear hexahedral element", 2017 (Bezier).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright {
+
+/// Least scaled Jacobian over the 8 corners: det of the unit edge vectors, in [-1, 1]; -1 when an
+/// edge has no length. (Verdict adds the centre's frame; the published minima count the corners.
+/// See docs/algorithms/quality.md.)
+double scaled_jacobian(const std::array<Vec3, 8>& p);
+
+/// Scaled Jacobian at one corner.
+double corner_scaled_jacobian(const std::array<Vec3, 8>& p, int lv);
+
+/// Whether the Jacobian determinant of the trilinear map is proven positive everywhere inside the
+/// element, by its Bezier coefficients (subdivided a bounded number of times). Undecided means
+/// neither proof succeeded.
+enum class Positivity { Positive, NotPositive, Undecided };
+Positivity check_positivity(const std::array<Vec3, 8>& p);
+
+struct QualitySummary {
+  std::size_t num_hexes = 0;
+  std::size_t num_inverted = 0;  ///< scaled Jacobian <= 0
+  double min_scaled_jacobian = 0, avg_scaled_jacobian = 0;
+  HexId worst_hex;
+  std::array<std::size_t, 20> histogram{};  ///< bins of 0.1 over [-1, 1]
+  std::size_t num_not_positive = 0;         ///< Bezier test: proven not positive inside
+  std::size_t num_undecided = 0;
+  double total_volume = 0;
+};
+QualitySummary summarize_quality(const HexMesh& mesh);
+
+/// Scaled Jacobian of each hex.
+IdVector<HexId, double> compute_scaled_jacobians(const HexMesh& mesh);
+
+/// Volume by the divergence theorem with bilinear faces.
+double hex_volume(const std::array<Vec3, 8>& p);
+
+}  // namespace hexwright

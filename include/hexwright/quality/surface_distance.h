@@ -1,0 +1,36 @@
+// How far a mesh's boundary is from the surface it stands for, both ways.
+#pragma once
+
+#include <vector>
+
+#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright {
+
+struct DistanceOptions {
+  double spacing = 0.004;  ///< distance between samples, share of the surface's diagonal
+  double hot_threshold =
+      0;  ///< collect samples farther than this (share of the diagonal) into `hot`; 0 = none
+};
+
+/// Distances as shares of the surface's bounding-box diagonal.
+struct SurfaceDistance {
+  double max_to_mesh = 0, mean_to_mesh = 0;        ///< from the surface to the mesh's boundary
+  double max_to_surface = 0, mean_to_surface = 0;  ///< from the mesh's boundary to the surface
+  Vec3 worst_on_surface, worst_on_mesh;            ///< where the maxima are reached
+  std::vector<Vec3> hot;                           ///< samples farther than hot_threshold
+  double max_two_way() const { return std::max(max_to_mesh, max_to_surface); }
+  double mean_two_way() const { return std::max(mean_to_mesh, mean_to_surface); }
+};
+
+/// Samples vertices, edges and the insides of triangles and boundary quads (each quad split about
+/// its centre into four).
+SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface,
+                                 const DistanceOptions& options);
+
+/// The boundary of a hex mesh as triangles (four per quad, about its centre); vertices of the mesh
+/// come first.
+TriMesh boundary_triangles(const HexMesh& mesh);
+
+}  // namespace hexwright

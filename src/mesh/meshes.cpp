@@ -1,0 +1,86 @@
+// Checks and small helpers of the three mesh types.
+#include <cmath>
+
+#include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/mesh/tet_mesh.h"
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+namespace {
+
+std::optional<Issue> find_bad_position(const IdVector<VertId, Vec3>& positions) {
+  for (VertId v : positions.ids())
+    if (!is_finite(positions[v]))
+      return Issue{"vertex " + std::to_string(v.value()) + " has a coordinate that is not finite"};
+  return std::nullopt;
+}
+
+template <class IdType, std::size_t N>
+std::optional<Issue> find_bad_index(const IdVector<IdType, std::array<VertId, N>>& elements,
+                                    std::size_t num_verts, const char* name) {
+  for (IdType e : elements.ids())
+    for (VertId v : elements[e])
+      if (!v.is_valid() || v.index() >= num_verts)
+        return Issue{std::string(name) + " " + std::to_string(e.value()) + " uses vertex " +
+                     std::to_string(v.value()) + " of " + std::to_string(num_verts)};
+  return std::nullopt;
+}
+
+template <class Elements>
+Box3 box_of_used(const IdVector<VertId, Vec3>& positions, const Elements& elements) {
+  Box3 box;
+  for (const auto& element : elements)
+    for (VertId v : element) box.extend(positions[v]);
+  return box;
+}
+
+}  // namespace
+
+std::optional<Issue> TriMesh::find_problem() const {
+  if (auto issue = find_bad_index(tris, num_verts(), "triangle")) return issue;
+  return find_bad_position(positions);
+}
+
+std::optional<Issue> TetMesh::find_problem() const {
+  if (auto issue = find_bad_index(tets, num_verts(), "tetrahedron")) return issue;
+  return find_bad_position(positions);
+}
+
+std::optional<Issue> HexMesh::find_problem() const {
+  if (auto issue = find_bad_index(hexes, num_verts(), "hex")) return issue;
+  if (!region.empty() && region.size() != num_hexes())
+    return Issue{"region tags do not match the number of hexes"};
+  const auto in_range = [&](VertId v) { return v.is_valid() && v.index() < num_verts(); };
+  for (const auto& quad : labels.quads)
+    for (VertId v : quad.verts)
+      if (!in_range(v)) return Issue{"a labelled quad uses a vertex out of range"};
+  for (const auto& edge : labels.edges)
+    for (VertId v : edge.verts)
+      if (!in_range(v)) return Issue{"a labelled edge uses a vertex out of range"};
+  for (VertId v : labels.corners)
+    if (!in_range(v)) return Issue{"a labelled corner is out of range"};
+  return find_bad_position(positions);
+}
+
+Box3 bounding_box(const TriMesh& surface) { return box_of_used(surface.positions, surface.tris); }
+
+Box3 bounding_box(const HexMesh& mesh) { return box_of_used(mesh.positions, mesh.hexes); }
+
+void remove_unused_verts(HexMesh& mesh) {
+  IdVector<VertId, VertId> old_to_new(mesh.num_verts());
+  for (const auto& hex : mesh.hexes)
+    for (VertId v : hex) old_to_new[v] = VertId(0);  // marks a used vertex; renumbered below
+  IdVector<VertId, Vec3> positions;
+  for (VertId v : mesh.positions.ids())
+    if (old_to_new[v].is_valid()) old_to_new[v] = positions.push_back(mesh.positions[v]);
+  mesh.positions = std::move(positions);
+  for (auto& hex : mesh.hexes)
+    for (VertId& v : hex) v = old_to_new[v];
+  for (auto& quad : mesh.labels.quads)
+    for (VertId& v : quad.verts) v = old_to_new[v];
+  for (auto& edge : mesh.labels.edges)
+    for (VertId& v : edge.verts) v = old_to_new[v];
+  for (VertId& v : mesh.labels.corners) v = old_to_new[v];
+}
+
+}  // namespace hexwright
