@@ -27,6 +27,7 @@ struct ClosestFilter {
   Vec3 normal;             ///< unit vector compared with triangle normals when min_cosine >= -1
   double min_cosine = -2;  ///< keep triangles with normal . tri_normal >= min_cosine
   PatchId patch;           ///< keep triangles of this patch when valid (see set_patches)
+  TriId hint;              ///< a triangle likely to be near, e.g. of the last query; speeds up only
 };
 
 /// Immutable after construction but for set_patches; queries are thread-safe and deterministic:

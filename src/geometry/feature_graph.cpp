@@ -1,0 +1,235 @@
+// Crease edges, chained into curves between corners, without short stray pieces; and the patches
+// between them.
+#include "hexwright/geometry/feature_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "hexwright/base/error.h"
+
+#include "geometry/surface_edges.h"
+#include "geometry/triangle_math.h"
+
+namespace hexwright {
+namespace {
+
+/// Pruning one piece can leave another dangling, so it is repeated, but not so often that a long
+/// curve with many twigs would be eaten from its end.
+constexpr int kPruneRounds = 3;
+
+bool is_crease(const std::span<const SurfaceEdges::Side> sides, const std::vector<Vec3>& normals,
+               double min_cosine) {
+  if (sides.size() != 2) return true;
+  const Vec3& a = normals[sides[0].tri.index()];
+  const Vec3& b = normals[sides[1].tri.index()];
+  if (a == Vec3{} || b == Vec3{}) return false;  // a degenerate triangle has no angle
+  const bool is_consistent = sides[0].is_forward != sides[1].is_forward;
+  return (is_consistent ? dot(a, b) : -dot(a, b)) < min_cosine;
+}
+
+std::vector<std::uint64_t> user_keys(const TriMesh& surface, const FeatureOptions& options) {
+  std::vector<std::uint64_t> keys;
+  for (const auto& [a, b] : options.extra_edges) {
+    for (VertId v : {a, b})
+      if (!v.is_valid() || v.index() >= surface.num_verts())
+        throw Error(ErrorCode::BadArgument,
+                    "a feature edge uses vertex " + std::to_string(v.value()) +
+                        ", but the surface has " + std::to_string(surface.num_verts()) +
+                        " vertices; correct the list of feature edges");
+    if (a != b) keys.push_back(edge_key(a, b));
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle) {
+  std::vector<Vec3> normals(surface.num_tris());
+  for (TriId t : surface.tris.ids()) normals[t.index()] = unit_normal(surface.corners(t));
+  const SurfaceEdges edges = compute_surface_edges(surface);
+  const double min_cosine = std::cos(angle);
+  std::vector<std::uint64_t> keys;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (is_crease(edges.sides_of(e), normals, min_cosine)) keys.push_back(edges.keys[e]);
+  return keys;
+}
+
+/// The graph of crease edges, from which pieces are removed.
+class CreaseGraph {
+ public:
+  CreaseGraph(const TriMesh& surface, const FeatureOptions& options)
+      : surface_(surface),
+        min_turn_cosine_(std::cos(options.turn_angle)),
+        min_length_(options.min_length),
+        user_keys_(user_keys(surface, options)),
+        neighbors_(surface.num_verts()) {
+    const auto creases = crease_keys(surface, options.crease_angle);
+    std::set_union(creases.begin(), creases.end(), user_keys_.begin(), user_keys_.end(),
+                   std::back_inserter(keys_));
+    for (std::uint64_t key : keys_) {
+      const VertId a(key >> 32), b(key & 0xffffffffu);
+      neighbors_[a].push_back(b);
+      neighbors_[b].push_back(a);
+    }
+    for (auto& around : neighbors_) std::sort(around.begin(), around.end());
+    is_used_.resize(keys_.size());
+  }
+
+  bool is_corner(VertId v) const {
+    const auto& around = neighbors_[v];
+    if (around.size() != 2) return !around.empty();
+    const auto& x = surface_.positions;
+    return dot(normalized(x[v] - x[around[0]]), normalized(x[around[1]] - x[v])) < min_turn_cosine_;
+  }
+
+  /// All chains between corners, then all loops; each edge is in exactly one.
+  std::vector<FeatureCurve> chain() {
+    std::fill(is_used_.begin(), is_used_.end(), char(0));
+    std::vector<FeatureCurve> curves;
+    for (VertId v : neighbors_.ids())
+      if (is_corner(v))
+        for (VertId next : neighbors_[v])
+          if (!is_used_[edge_index(v, next)]) curves.push_back(walk(v, next, false));
+    for (std::size_t e = 0; e < keys_.size(); ++e)
+      if (!is_used_[e] && is_alive(e))
+        curves.push_back(walk(VertId(keys_[e] >> 32), VertId(keys_[e] & 0xffffffffu), true));
+    return curves;
+  }
+
+  /// Removes dangling chains and whole connected pieces that are shorter than the least length.
+  bool prune(const std::vector<FeatureCurve>& curves) {
+    const std::vector<double> piece_length = lengths_of_pieces(curves);
+    std::vector<std::size_t> removed;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const FeatureCurve& c = curves[i];
+      const bool is_dangling = !c.is_closed && (neighbors_[c.verts.front()].size() == 1 ||
+                                                neighbors_[c.verts.back()].size() == 1);
+      const bool is_short =
+          (is_dangling && c.length() < min_length_) || piece_length[i] < min_length_;
+      if (is_short && !has_user_edge(c)) removed.push_back(i);
+    }
+    for (std::size_t i : removed)
+      for (std::size_t k = 1; k < curves[i].verts.size(); ++k)
+        remove(curves[i].verts[k - 1], curves[i].verts[k]);
+    return !removed.empty();
+  }
+
+ private:
+  std::size_t edge_index(VertId a, VertId b) const {
+    const auto it = std::lower_bound(keys_.begin(), keys_.end(), edge_key(a, b));
+    return static_cast<std::size_t>(it - keys_.begin());
+  }
+
+  bool is_alive(std::size_t e) const {
+    const auto& around = neighbors_[VertId(keys_[e] >> 32)];
+    return std::binary_search(around.begin(), around.end(), VertId(keys_[e] & 0xffffffffu));
+  }
+
+  bool has_user_edge(const FeatureCurve& c) const {
+    for (std::size_t k = 1; k < c.verts.size(); ++k)
+      if (std::binary_search(user_keys_.begin(), user_keys_.end(),
+                             edge_key(c.verts[k - 1], c.verts[k])))
+        return true;
+    return false;
+  }
+
+  void remove(VertId a, VertId b) {
+    std::erase(neighbors_[a], b);
+    std::erase(neighbors_[b], a);
+  }
+
+  FeatureCurve walk(VertId start, VertId next, bool is_closed) {
+    FeatureCurve curve;
+    curve.is_closed = is_closed;
+    curve.verts = {start, next};
+    is_used_[edge_index(start, next)] = 1;
+    while (!is_corner(curve.verts.back()) && curve.verts.back() != start) {
+      const VertId here = curve.verts.back(), from = curve.verts[curve.verts.size() - 2];
+      const auto& around = neighbors_[here];
+      const VertId to = around[0] == from ? around[1] : around[0];
+      is_used_[edge_index(here, to)] = 1;
+      curve.verts.push_back(to);
+    }
+    curve.arc_length = {0};
+    for (std::size_t i = 1; i < curve.verts.size(); ++i)
+      curve.arc_length.push_back(
+          curve.arc_length.back() +
+          distance(surface_.positions[curve.verts[i - 1]], surface_.positions[curve.verts[i]]));
+    return curve;
+  }
+
+  /// For each curve the length of all curves connected to it.
+  std::vector<double> lengths_of_pieces(const std::vector<FeatureCurve>& curves) const {
+    IdVector<VertId, int> first_at(surface_.num_verts(), -1);
+    UnionFind pieces(curves.size());
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      for (VertId v : {curves[i].verts.front(), curves[i].verts.back()}) {
+        if (first_at[v] < 0) first_at[v] = static_cast<int>(i);
+        pieces.unite(first_at[v], static_cast<int>(i));
+      }
+    std::vector<double> sum(curves.size(), 0), length(curves.size());
+    const auto root = [&](std::size_t i) {
+      return static_cast<std::size_t>(pieces.find(static_cast<int>(i)));
+    };
+    for (std::size_t i = 0; i < curves.size(); ++i) sum[root(i)] += curves[i].length();
+    for (std::size_t i = 0; i < curves.size(); ++i) length[i] = sum[root(i)];
+    return length;
+  }
+
+  const TriMesh& surface_;
+  double min_turn_cosine_, min_length_;
+  std::vector<std::uint64_t> user_keys_;  // sorted
+  std::vector<std::uint64_t> keys_;       // sorted; all crease edges, removed ones too
+  IdVector<VertId, std::vector<VertId>> neighbors_;
+  std::vector<char> is_used_;  // per key, while chaining
+};
+
+}  // namespace
+
+double FeatureGraph::total_length() const {
+  double sum = 0;
+  for (const FeatureCurve& c : curves) sum += c.length();
+  return sum;
+}
+
+FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {
+  CreaseGraph graph(surface, options);
+  auto curves = graph.chain();
+  for (int round = 0; round < kPruneRounds && graph.prune(curves); ++round) curves = graph.chain();
+  FeatureGraph features;
+  features.curves = IdVector<CurveId, FeatureCurve>(std::move(curves));
+  for (const FeatureCurve& c : features.curves)
+    if (!c.is_closed)
+      features.corners.insert(features.corners.end(), {c.verts.front(), c.verts.back()});
+  auto& corners = features.corners;
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return features;
+}
+
+IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,
+                                         std::span<const char> is_barrier) {
+  std::vector<std::uint64_t> barriers;
+  for (CurveId c : features.curves.ids()) {
+    if (!is_barrier.empty() && !is_barrier[c.index()]) continue;
+    const auto& verts = features.curves[c].verts;
+    for (std::size_t i = 1; i < verts.size(); ++i)
+      barriers.push_back(edge_key(verts[i - 1], verts[i]));
+  }
+  std::sort(barriers.begin(), barriers.end());
+  const SurfaceEdges edges = compute_surface_edges(surface);
+  UnionFind sets(surface.num_tris());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto sides = edges.sides_of(e);
+    if (sides.size() < 2 || std::binary_search(barriers.begin(), barriers.end(), edges.keys[e]))
+      continue;
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      sets.unite(sides[0].tri.value(), sides[i].tri.value());
+  }
+  IdVector<TriId, PatchId> patches;
+  for (int number : number_sets(sets, surface.num_tris())) patches.push_back(PatchId(number));
+  return patches;
+}
+
+}  // namespace hexwright

@@ -1,0 +1,262 @@
+// Closest-point queries by ordered descent; winding numbers by far-field expansion.
+#include "hexwright/geometry/surface_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hexwright/base/assert.h"
+#include "hexwright/base/parallel.h"
+
+#include "geometry/triangle_bvh.h"
+#include "geometry/triangle_math.h"
+#include "geometry/winding_moments.h"
+
+namespace hexwright {
+namespace {
+
+/// Patch of a child whose triangles are of several patches.
+constexpr std::int32_t kMixedPatch = -2;
+
+struct ChildPatches {
+  std::int32_t patch[4] = {kMixedPatch, kMixedPatch, kMixedPatch, kMixedPatch};
+};
+
+/// The query point in the frame of the boxes, with the slack that makes every box distance a lower
+/// bound of the true one.
+struct BoxQuery {
+  float p[3];
+  float slack;
+
+  BoxQuery(const BvhFrame& frame, const Vec3& world) {
+    // Far points are moved to a far box, which only lowers distances to what is inside it.
+    constexpr double kFar = 1e15;
+    double largest = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x =
+          std::clamp((world[axis] - frame.center[axis]) * frame.inverse_scale, -kFar, kFar);
+      p[axis] = static_cast<float>(x);
+      largest = std::max(largest, std::abs(x));
+    }
+    slack = static_cast<float>(4e-7 * largest);
+  }
+};
+
+void box_distances(const BvhNode& node, const BoxQuery& q, float out[4]) {
+  for (int k = 0; k < 4; ++k) out[k] = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < 4; ++k) {
+      const float below = node.lo[axis][k] - q.p[axis], above = q.p[axis] - node.hi[axis][k];
+      const float outside = (below > above ? below : above) - q.slack;
+      const float d = outside > 0 ? outside : 0;
+      out[k] += d * d;
+    }
+}
+
+/// Nodes still to visit, nearest last.
+class VisitStack {
+ public:
+  struct Entry {
+    float distance_sq;
+    std::int32_t child;
+  };
+  bool empty() const { return top_ == 0; }
+  Entry pop() { return entries_[--top_]; }
+  /// Inserts below the top so that the entries from `from` on stay sorted, nearest last.
+  void push_sorted(Entry e, int from) {
+    int i = top_++;
+    for (; i > from && entries_[i - 1].distance_sq < e.distance_sq; --i)
+      entries_[i] = entries_[i - 1];
+    entries_[i] = e;
+  }
+  int size() const { return top_; }
+
+ private:
+  Entry entries_[3 * kMaxBvhDepth + 4];
+  int top_ = 0;
+};
+
+}  // namespace
+
+struct SurfaceTree::Impl {
+  TriMesh surface;
+  Box3 box;
+  TriangleBvh bvh;
+  IdVector<TriId, Vec3> normals;
+  std::vector<TriangleData> slots;       // triangles in leaf order
+  std::vector<std::int32_t> slot_patch;  // in leaf order; empty before set_patches
+  IdVector<TriId, int> tri_to_slot;
+  std::vector<ChildPatches> child_patches;  // per node; empty before set_patches
+  IdVector<TriId, PatchId> patches;
+  std::vector<WindingNode> winding;
+
+  /// The best so far of one query.
+  struct Best {
+    double distance_sq = std::numeric_limits<double>::infinity();
+    std::int32_t tri = std::numeric_limits<std::int32_t>::max();
+    int slot = -1;
+    Vec3 offset;  // from the triangle's first corner
+    bool is_found() const { return slot >= 0; }
+  };
+
+  explicit Impl(TriMesh mesh);
+  void set_patches(IdVector<TriId, PatchId> tri_to_patch);
+  std::int32_t fill_child_patches(int node);
+  template <bool kByNormal, bool kByPatch>
+  void test_slot(int slot, const Vec3& p, const ClosestFilter& filter, Best& best) const;
+  template <bool kByNormal, bool kByPatch>
+  void search(const Vec3& p, const ClosestFilter& filter, Best& best) const;
+  /// Squared distance of the best in the frame of the boxes, rounded up.
+  float bound(const Best& best) const {
+    const double d = best.distance_sq * bvh.frame.inverse_scale * bvh.frame.inverse_scale;
+    return static_cast<float>(std::min(d * 1.000001 + 1e-37, 1e38));
+  }
+};
+
+SurfaceTree::Impl::Impl(TriMesh mesh)
+    : surface(std::move(mesh)),
+      box(bounding_box(surface)),
+      bvh(build_triangle_bvh(surface)),
+      normals(surface.num_tris()),
+      slots(surface.num_tris()),
+      tri_to_slot(surface.num_tris()) {
+  parallel_for(slots.size(), [&](std::size_t s) {
+    const TriId t = bvh.slot_to_tri[s];
+    const auto corners = surface.corners(t);
+    normals[t] = unit_normal(corners);
+    slots[s] = TriangleData::make(corners[0], corners[1], corners[2], normals[t]);
+    tri_to_slot[t] = static_cast<int>(s);
+  });
+  winding = compute_winding_nodes(bvh, slots);
+}
+
+void SurfaceTree::Impl::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
+  HEXWRIGHT_ASSERT(tri_to_patch.size() == surface.num_tris());
+  patches = std::move(tri_to_patch);
+  slot_patch.resize(slots.size());
+  for (std::size_t s = 0; s < slots.size(); ++s)
+    slot_patch[s] = patches[bvh.slot_to_tri[s]].value();
+  child_patches.assign(bvh.nodes.size(), {});
+  if (!bvh.nodes.empty()) fill_child_patches(0);
+}
+
+std::int32_t SurfaceTree::Impl::fill_child_patches(int node_id) {
+  const BvhNode& node = bvh.nodes[static_cast<std::size_t>(node_id)];
+  ChildPatches& of_node = child_patches[static_cast<std::size_t>(node_id)];
+  constexpr std::int32_t kNone = -3;
+  const auto merge = [](std::int32_t a, std::int32_t b) {
+    return a == kNone || a == b ? b : kMixedPatch;
+  };
+  std::int32_t all = kNone;
+  for (int k = 0; k < 4; ++k) {
+    std::int32_t patch = kNone;
+    if (!node.is_leaf(k)) {
+      patch = fill_child_patches(node.child[k]);
+    } else {
+      if (node.leaf_count(k) == 0) continue;
+      for (int i = 0; i < node.leaf_count(k); ++i)
+        patch = merge(patch, slot_patch[static_cast<std::size_t>(node.leaf_first(k) + i)]);
+    }
+    of_node.patch[k] = patch;
+    all = merge(all, patch);
+  }
+  return all;
+}
+
+template <bool kByNormal, bool kByPatch>
+void SurfaceTree::Impl::test_slot(int slot, const Vec3& p, const ClosestFilter& filter,
+                                  Best& best) const {
+  const auto s = static_cast<std::size_t>(slot);
+  const TriangleData& t = slots[s];
+  if constexpr (kByPatch)
+    if (slot_patch[s] != filter.patch.value()) return;
+  if constexpr (kByNormal)
+    if (!(dot(filter.normal, t.normal) >= filter.min_cosine)) return;
+  const Vec3 ap = p - t.a;
+  const Vec3 offset = closest_offset(t, ap);
+  const double d = norm_sq(ap - offset);
+  if (d > best.distance_sq || !(d <= best.distance_sq)) return;
+  const std::int32_t tri = bvh.slot_to_tri[s].value();
+  if (d == best.distance_sq && tri >= best.tri) return;
+  best = {d, tri, slot, offset};
+}
+
+template <bool kByNormal, bool kByPatch>
+void SurfaceTree::Impl::search(const Vec3& p, const ClosestFilter& filter, Best& best) const {
+  const BoxQuery query(bvh.frame, p);
+  VisitStack stack;
+  stack.push_sorted({0, 0}, 0);
+  float limit = bound(best);
+  while (!stack.empty()) {
+    const auto entry = stack.pop();
+    if (entry.distance_sq > limit) continue;
+    if (entry.child < 0) {
+      const auto leaf = static_cast<std::uint32_t>(~entry.child);
+      for (std::uint32_t i = 0; i < (leaf & 7); ++i)
+        test_slot<kByNormal, kByPatch>(static_cast<int>(leaf / 8 + i), p, filter, best);
+      limit = bound(best);
+      continue;
+    }
+    const BvhNode& node = bvh.nodes[static_cast<std::size_t>(entry.child)];
+    float distance_sq[4];
+    box_distances(node, query, distance_sq);
+    const int from = stack.size();
+    for (int k = 0; k < 4; ++k) {
+      if (!(distance_sq[k] <= limit)) continue;
+      if constexpr (kByPatch) {
+        const auto patch = child_patches[static_cast<std::size_t>(entry.child)].patch[k];
+        if (patch != filter.patch.value() && patch != kMixedPatch) continue;
+      }
+      stack.push_sorted({distance_sq[k], node.child[k]}, from);
+    }
+  }
+}
+
+SurfaceTree::SurfaceTree(TriMesh surface) : impl_(std::make_unique<Impl>(std::move(surface))) {}
+SurfaceTree::~SurfaceTree() = default;
+SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
+SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
+
+const TriMesh& SurfaceTree::surface() const { return impl_->surface; }
+const Box3& SurfaceTree::box() const { return impl_->box; }
+const Vec3& SurfaceTree::normal(TriId t) const { return impl_->normals[t]; }
+PatchId SurfaceTree::patch(TriId t) const {
+  return impl_->patches.empty() ? PatchId() : impl_->patches[t];
+}
+
+void SurfaceTree::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
+  impl_->set_patches(std::move(tri_to_patch));
+}
+
+std::optional<ClosestPoint> SurfaceTree::closest(const Vec3& p, const ClosestFilter& filter) const {
+  const Impl& tree = *impl_;
+  const bool by_normal = filter.min_cosine >= -1;
+  const bool by_patch = filter.patch.is_valid() && !tree.patches.empty();
+  if (tree.bvh.nodes.empty() || (filter.patch.is_valid() && tree.patches.empty()))
+    return std::nullopt;
+  if (!(filter.max_distance >= 0)) return std::nullopt;
+  Impl::Best best;
+  best.distance_sq = filter.max_distance * filter.max_distance;
+  const auto run = [&]<bool kByNormal, bool kByPatch>() {
+    if (filter.hint.is_valid())
+      tree.test_slot<kByNormal, kByPatch>(tree.tri_to_slot[filter.hint], p, filter, best);
+    tree.search<kByNormal, kByPatch>(p, filter, best);
+  };
+  if (by_normal)
+    by_patch ? run.operator()<true, true>() : run.operator()<true, false>();
+  else
+    by_patch ? run.operator()<false, true>() : run.operator()<false, false>();
+  if (!best.is_found()) return std::nullopt;
+  const Vec3 point = tree.slots[static_cast<std::size_t>(best.slot)].a + best.offset;
+  return ClosestPoint{TriId(best.tri), point, best.distance_sq};
+}
+
+double SurfaceTree::distance(const Vec3& p) const {
+  const auto found = closest(p);
+  return found ? std::sqrt(found->distance_sq) : std::numeric_limits<double>::infinity();
+}
+
+double SurfaceTree::winding_number(const Vec3& p, double accuracy) const {
+  return evaluate_winding(impl_->bvh, impl_->winding, impl_->slots, p, accuracy);
+}
+
+}  // namespace hexwright

@@ -1,0 +1,140 @@
+#include "hexwright/geometry/feature_graph.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hexwright/base/error.h"
+
+#include "geometry/random_soup.h"
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+/// A prism over a regular polygon, closed; n large makes a cylinder with two circular creases.
+TriMesh prism(int n, double height) {
+  TriMesh m;
+  for (int z = 0; z < 2; ++z)
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      m.positions.push_back({std::cos(a), std::sin(a), z * height});
+    }
+  const VertId low = m.positions.push_back({0, 0, 0});
+  const VertId high = m.positions.push_back({0, 0, height});
+  for (int i = 0; i < n; ++i) {
+    const VertId a(i), b((i + 1) % n), c(n + i), d(n + (i + 1) % n);
+    m.tris.push_back({a, b, d});
+    m.tris.push_back({a, d, c});
+    m.tris.push_back({low, b, a});
+    m.tris.push_back({high, c, d});
+  }
+  return m;
+}
+
+FeatureOptions creasing_at(double angle) {
+  FeatureOptions options;
+  options.crease_angle = angle;
+  return options;
+}
+
+FeatureOptions pruning_below(double length) {
+  FeatureOptions options;
+  options.min_length = length;
+  return options;
+}
+
+TEST(Features, CubeHasTwelveCurvesEightCornersSixPatches) {
+  const TriMesh cube = test::unit_cube_surface();
+  const auto features = extract_features(cube, {});
+  EXPECT_EQ(features.curves.size(), 12u);
+  EXPECT_EQ(features.corners.size(), 8u);
+  EXPECT_DOUBLE_EQ(features.total_length(), 12);
+  const auto patches = compute_patches(cube, features);
+  for (TriId t : cube.tris.ids()) EXPECT_EQ(patches[t].value(), t.value() / 2);
+}
+
+TEST(Features, FlippedTrianglesDoNotChangeCreases) {
+  TriMesh cube = test::unit_cube_surface();
+  for (TriId t : cube.tris.ids())
+    if (t.value() % 3 == 0) std::swap(cube.tris[t][0], cube.tris[t][1]);
+  EXPECT_EQ(extract_features(cube, {}).curves.size(), 12u);
+}
+
+TEST(Features, CylinderHasTwoLoopsAndThreePatches) {
+  const TriMesh cylinder = prism(40, 2);
+  const auto features = extract_features(cylinder, {});
+  ASSERT_EQ(features.curves.size(), 2u);
+  EXPECT_TRUE(features.corners.empty());
+  for (const auto& c : features.curves) {
+    EXPECT_TRUE(c.is_closed);
+    EXPECT_EQ(c.verts.size(), 41u);
+    EXPECT_EQ(c.verts.front(), c.verts.back());
+  }
+  const auto patches = compute_patches(cylinder, features);
+  EXPECT_EQ((std::max_element(patches.begin(), patches.end())->value()), 2);
+  const std::vector<char> only_first{1, 0};
+  const auto merged = compute_patches(cylinder, features, only_first);
+  EXPECT_EQ((std::max_element(merged.begin(), merged.end())->value()), 1);
+}
+
+TEST(Features, BoundaryIsACrease) {
+  TriMesh open = test::unit_cube_surface();
+  open.tris.resize(10);
+  EXPECT_EQ(extract_features(open, creasing_at(3)).curves.size(), 4u);
+}
+
+TEST(Features, ShortPiecesArePrunedButNotTheUsersEdges) {
+  const TriMesh sphere = prism(64, 1);
+  FeatureOptions options;
+  options.crease_angle = 3;  // none by angle
+  options.extra_edges = {{VertId(0), VertId(1)}, {VertId(1), VertId(2)}};
+  options.min_length = 100;
+  const auto features = extract_features(sphere, options);
+  ASSERT_EQ(features.curves.size(), 1u);
+  EXPECT_EQ(features.corners, (std::vector<VertId>{VertId(0), VertId(2)}));
+  EXPECT_TRUE(extract_features(sphere, pruning_below(100)).empty());
+  EXPECT_EQ(extract_features(sphere, pruning_below(4)).curves.size(), 2u);
+}
+
+TEST(Features, AnEdgeOutOfRangeIsRefused) {
+  FeatureOptions options;
+  options.extra_edges = {{VertId(0), VertId(99)}};
+  EXPECT_THROW(extract_features(test::unit_cube_surface(), options), Error);
+}
+
+TEST(FeatureCurve, ClosestMatchesDenseSampling) {
+  const TriMesh cylinder = prism(40, 2);
+  const auto features = extract_features(cylinder, {});
+  const FeatureCurve& loop = features.curves[CurveId(1)];
+  std::mt19937_64 random(23);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = test::random_point(random, 3);
+    const double lo = 7 * test::random_point(random).x, width = i % 2 ? 1.5 : 20;
+    double expected = std::numeric_limits<double>::infinity();
+    const double end = lo + std::min(width, loop.length());
+    for (int k = 0; k <= 4000; ++k)
+      expected = std::min(
+          expected, distance(p, point_at_arc(cylinder, loop, lo + (end - lo) * k / 4000).point));
+    const auto found = closest_on_curve(cylinder, loop, p, lo, lo + width);
+    EXPECT_NEAR(std::sqrt(found.distance_sq), expected, 2e-3);
+    EXPECT_LE(std::sqrt(found.distance_sq), expected + 1e-12);
+    EXPECT_NEAR(distance(point_at_arc(cylinder, loop, found.arc).point, found.point), 0, 1e-12);
+    EXPECT_NEAR(norm(found.tangent), 1, 1e-12);
+  }
+}
+
+TEST(FeatureCurve, OpenCurveClampsAtItsEnds) {
+  const TriMesh cube = test::unit_cube_surface();
+  const auto features = extract_features(cube, {});
+  const FeatureCurve& c = features.curves[CurveId(0)];  // from (0,0,0) to (1,0,0)
+  EXPECT_EQ(point_at_arc(cube, c, 5).point, (Vec3{1, 0, 0}));
+  EXPECT_EQ(point_at_arc(cube, c, -5).point, (Vec3{0, 0, 0}));
+  EXPECT_EQ(closest_on_curve(cube, c, {0.25, 3, 4}).arc, 0.25);
+  EXPECT_EQ(closest_on_curve(cube, c, {0.25, 3, 4}).distance_sq, 25);
+  EXPECT_EQ(closest_on_curve(cube, c, {0.25, 3, 4}, 0.5, 0.75).arc, 0.5);
+  EXPECT_EQ(closest_on_curve(cube, c, {0.25, 3, 4}, 7, 8).arc, 1);
+}
+
+}  // namespace
+}  // namespace hexwright
