@@ -1,0 +1,50 @@
+// What surface readers collect: points and polygons, triangulated when the file has been read.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hexwright/io/surface_io.h"
+
+namespace hexwright::io {
+
+/// Polygons in compressed rows. Indices are checked by the readers, which know the line.
+struct PolygonSoup {
+  IdVector<VertId, Vec3> positions;
+  std::vector<VertId> verts;
+  std::vector<std::size_t> ends;  ///< ends[p]: one past polygon p's last entry in `verts`
+
+  /// Closes the polygon whose vertices were appended to `verts` since the last call.
+  void end_polygon() { ends.push_back(verts.size()); }
+  std::size_t num_open_verts() const {
+    return verts.size() - (ends.empty() ? std::size_t{0} : ends.back());
+  }
+};
+
+/// Triangles as they are; quads along the diagonal that folds less; larger polygons by ear clipping
+/// in their mean plane, so that concave ones keep their shape. n-2 triangles each, in file order.
+TriMesh triangulate(PolygonSoup&& soup);
+
+/// Readers of one format each: `text`/`bytes` is the whole file, `warnings` may be appended to.
+struct SurfaceSource {
+  std::string_view bytes;
+  const std::string& name;
+  std::vector<std::string>& warnings;
+};
+PolygonSoup read_obj(const SurfaceSource& source);
+PolygonSoup read_off(const SurfaceSource& source);
+PolygonSoup read_stl_ascii(const SurfaceSource& source);
+PolygonSoup read_stl_binary(const SurfaceSource& source);
+PolygonSoup read_ply(const SurfaceSource& source);
+
+/// True for the first token of an OFF file: OFF, COFF, NOFF, STCNOFF ...
+bool is_off_keyword(std::string_view token);
+/// True when the size is exactly what the count field of a binary STL says.
+bool is_exact_binary_stl(std::string_view bytes);
+
+/// Largest number of vertices or elements that 32-bit ids allow.
+inline constexpr std::size_t kMaxElements = 0x7ffffff0;
+
+}  // namespace hexwright::io
