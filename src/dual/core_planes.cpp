@@ -1,0 +1,139 @@
+#include "dual/core_planes.h"
+
+#include <bit>
+#include <numeric>
+
+namespace hexwright::dual {
+
+namespace {
+
+// Clusters of groups whose nodes share at least a vertex.
+class Clusters {
+ public:
+  explicit Clusters(const SplitNodes& nodes) : parent_(nodes.num_groups()) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    for (std::size_t g = 0; g < nodes.num_groups(); ++g)
+      for (int code = 14; code < 27; ++code)  // one of each pair of opposite offsets
+        join_across(nodes, g, {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1});
+  }
+
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  void join_across(const SplitNodes& nodes, std::size_t g, const std::array<int, 3>& offset) {
+    const NodeGroup& group = nodes.groups()[g];
+    int here = group.children, there = 0xFF;
+    LatticeCoord parent = group.parent;
+    for (int a = 0; a < 3; ++a) {
+      parent[a] += offset[a];
+      if (offset[a] == 0) continue;
+      here &= kSideMask[a][offset[a] > 0];
+      there &= kSideMask[a][offset[a] < 0];
+    }
+    if (!here) return;
+    const std::int32_t other = nodes.find_group(parent);
+    if (other < 0) return;
+    const auto o = static_cast<std::size_t>(other);
+    if (nodes.groups()[o].children & there) {
+      const std::size_t x = root(g), y = root(o);
+      parent_[std::max(x, y)] = std::min(x, y);
+    }
+  }
+
+  std::vector<std::size_t> parent_;
+};
+
+// What a parity costs on one axis.
+struct PlaneCost {
+  std::size_t num_partners = 0;  // unsplit cells of the domain that the pillows run through
+  std::size_t num_unpaired = 0;  // nodes whose other half is a partner or outside the domain
+  friend auto operator<=>(const PlaneCost&, const PlaneCost&) = default;
+  PlaneCost& operator+=(const PlaneCost& b) {
+    num_partners += b.num_partners;
+    num_unpaired += b.num_unpaired;
+    return *this;
+  }
+};
+using ClusterCost = std::array<std::array<PlaneCost, 2>, 3>;  // [axis][parity]
+
+class PlaneChooser {
+ public:
+  PlaneChooser(SplitNodes& nodes, int depth, const Domain& domain)
+      : nodes_(nodes), depth_(depth), domain_(domain) {}
+
+  CorePlaneReport run() {
+    Clusters clusters(nodes_);
+    std::vector<ClusterCost> costs(nodes_.num_groups());
+    for (std::size_t g = 0; g < nodes_.num_groups(); ++g)
+      add_costs(nodes_.groups()[g], costs[clusters.root(g)]);
+    CorePlaneReport report;
+    for (std::size_t g = 0; g < nodes_.num_groups(); ++g) {
+      const ClusterCost& cost = costs[clusters.root(g)];
+      std::uint8_t parity = 0;
+      for (int a = 0; a < 3; ++a) {
+        const bool odd = !(cost[a][0] < cost[a][1]);
+        parity |= static_cast<std::uint8_t>(odd << a);
+        if (clusters.root(g) == g) report.num_partners += cost[a][odd].num_partners;
+      }
+      nodes_.groups()[g].parity = parity;
+    }
+    return report;
+  }
+
+ private:
+  void add_costs(const NodeGroup& group, ClusterCost& cost) const {
+    for (int a = 0; a < 3; ++a) {
+      cost[a][1] += odd_cost(group, a);
+      cost[a][0] += even_cost(group, a, 0);
+      cost[a][0] += even_cost(group, a, 1);
+    }
+  }
+
+  // Odd planes: each node is paired with its sibling.
+  PlaneCost odd_cost(const NodeGroup& group, int axis) const {
+    PlaneCost cost;
+    for (int bit = 0; bit < 8; ++bit)
+      if ((group.children >> bit & 1) && !(group.children >> (bit ^ 1 << axis) & 1))
+        count(group, bit, axis, (bit >> axis & 1) ? -1 : 1, cost);
+    return cost;
+  }
+
+  // Even planes: the nodes on one side are paired with those of the next group.
+  PlaneCost even_cost(const NodeGroup& group, int axis, int side) const {
+    PlaneCost cost;
+    const int here = group.children & kSideMask[axis][side];
+    if (!here) return cost;
+    LatticeCoord next = group.parent;
+    next[axis] += side ? 1 : -1;
+    const std::int32_t found = nodes_.find_group(next);
+    const int there = found < 0 ? 0 : nodes_.groups()[static_cast<std::size_t>(found)].children;
+    for (int bit = 0; bit < 8; ++bit)
+      if ((here >> bit & 1) && !(there >> (bit ^ 1 << axis) & 1))
+        count(group, bit, axis, side ? 1 : -1, cost);
+    return cost;
+  }
+
+  // A node without split partner in direction `step`.
+  void count(const NodeGroup& group, int bit, int axis, int step, PlaneCost& cost) const {
+    LatticeCoord cell;
+    for (int a = 0; a < 3; ++a) cell[a] = 2 * group.parent[a] + (bit >> a & 1);
+    cell[axis] += step;
+    ++cost.num_unpaired;
+    cost.num_partners += domain_.contains_node(cell, depth_);
+  }
+
+  SplitNodes& nodes_;
+  int depth_;
+  const Domain& domain_;
+};
+
+}  // namespace
+
+CorePlaneReport choose_core_planes(SplitNodes& nodes, int depth, const Domain& domain) {
+  return PlaneChooser(nodes, depth, domain).run();
+}
+
+}  // namespace hexwright::dual

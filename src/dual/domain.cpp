@@ -1,0 +1,32 @@
+#include "dual/domain.h"
+
+#include <algorithm>
+
+namespace hexwright::dual {
+
+Domain::Domain(const Grid& grid) : finest_level_(grid.finest_level) {
+  if (grid.roots.empty()) return;
+  low_ = high_ = grid.roots.front();
+  for (const LatticeCoord& root : grid.roots) {
+    roots_.insert(root);
+    for (int a = 0; a < 3; ++a) {
+      low_[a] = std::min(low_[a], root[a]);
+      high_[a] = std::max(high_[a], root[a] + 1);
+    }
+  }
+  std::size_t volume = 1;
+  for (int a = 0; a < 3; ++a) volume *= static_cast<std::size_t>(high_[a] - low_[a]);
+  is_box_ = volume == grid.roots.size();
+}
+
+int Domain::octants_at(const LatticeCoord& point) const {
+  int octants = 0;
+  for (int q = 0; q < 8; ++q) {
+    LatticeCoord root;
+    for (int a = 0; a < 3; ++a) root[a] = (point[a] - !(q >> a & 1)) >> finest_level_;
+    if (contains_root(root)) octants |= 1 << q;
+  }
+  return octants;
+}
+
+}  // namespace hexwright::dual

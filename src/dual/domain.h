@@ -1,0 +1,33 @@
+// The domain: a union of unit root cubes, with look-up.
+#pragma once
+
+#include "dual/split_nodes.h"
+
+namespace hexwright::dual {
+
+class Domain {
+ public:
+  explicit Domain(const Grid& grid);
+
+  bool contains_root(const LatticeCoord& root) const { return roots_.contains(root); }
+  /// Does the domain contain this node of depth `depth`?
+  bool contains_node(const LatticeCoord& node, int depth) const {
+    return contains_root({node[0] >> depth, node[1] >> depth, node[2] >> depth});
+  }
+  /// Bit q (x | y << 1 | z << 2) is set when the domain covers the octant q around a point of the
+  /// finest lattice.
+  int octants_at(const LatticeCoord& point) const;
+
+  bool is_box() const { return is_box_; }
+  const LatticeCoord& low() const { return low_; }    ///< lowest root
+  const LatticeCoord& high() const { return high_; }  ///< one past the highest root
+  std::int32_t root_edge() const { return 1 << finest_level_; }
+
+ private:
+  SplitNodes roots_;
+  int finest_level_ = 0;
+  bool is_box_ = false;
+  LatticeCoord low_ = {0, 0, 0}, high_ = {0, 0, 0};
+};
+
+}  // namespace hexwright::dual

@@ -1,0 +1,85 @@
+// Based on: docs/algorithms/dual.md, "The pillow stack". Invariant: after depth i every closed
+// split node of depth i carries the complete 3x3x3 lattice of hexes, neighbours along each axis
+// sharing a face.
+#include "dual/pillow_stack.h"
+
+#include <bit>
+
+namespace hexwright::dual {
+
+PillowStack::PillowStack(HexComplex& complex, const Domain& domain,
+                         const std::vector<SplitNodes>& split)
+    : complex_(complex), domain_(domain), split_(split), inserter_(complex) {}
+
+void PillowStack::run(const Context& context) {
+  for (HexId h : complex_.verts.ids()) active_.push_back({h, 0});
+  const int num_depths = static_cast<int>(split_.size());
+  for (int depth = 0; depth < num_depths; ++depth) {
+    context.check_cancelled();
+    activate_depth(depth);
+    for (int axis = 0; axis < 3; ++axis) wrap_axis(axis);
+    context.progress("dual", 0.5 * (depth + 1) / num_depths);
+  }
+}
+
+// Split nodes are nested, so the hexes of this depth's nodes are among those of the last depth's.
+void PillowStack::activate_depth(int depth) {
+  depth_ = depth;
+  spacing_ = domain_.root_edge() >> depth;
+  std::vector<ActiveHex> active;
+  for (const ActiveHex& h : active_) {
+    const std::int32_t g = group_around(complex_.places[h.hex].point());
+    if (g >= 0)
+      active.push_back(
+          {h.hex,
+           split_[static_cast<std::size_t>(depth)].groups()[static_cast<std::size_t>(g)].parity});
+  }
+  active_ = std::move(active);
+}
+
+std::int32_t PillowStack::group_around(const LatticeCoord& p) const {
+  const std::int32_t half = spacing_ / 2;
+  return split_[static_cast<std::size_t>(depth_)].find_group_around(
+      {p[0] / half, p[1] / half, p[2] / half});
+}
+
+void PillowStack::wrap_axis(int axis) {
+  core_.clear();
+  for (const ActiveHex& h : active_)
+    if (is_on_core_plane(h, axis)) core_.push_back(h.hex);
+  if (core_.empty()) return;
+
+  const HexId first = inserter_.insert(core_);
+  for (HexId h = first; h.index() < complex_.num_hexes(); ++h) {
+    const HexId inner = complex_.links[h][4].hex(), outer = complex_.links[h][5].hex();
+    complex_.places[h] = place_layer_hex(inner, outer, axis);
+    if (!complex_.places[h].is_lattice()) continue;
+    const std::int32_t g = group_around(complex_.places[h].point());
+    if (g >= 0)
+      active_.push_back(
+          {h,
+           split_[static_cast<std::size_t>(depth_)].groups()[static_cast<std::size_t>(g)].parity});
+  }
+}
+
+bool PillowStack::is_on_core_plane(const ActiveHex& h, int axis) const {
+  const std::int32_t coord = complex_.places[h.hex].point()[axis];
+  return (coord & (spacing_ - 1)) == 0 && ((coord / spacing_) & 1) == (h.parity >> axis & 1);
+}
+
+// Between two lattice hexes one spacing apart along the pillow's axis the layer hex is the dual of
+// the mid-plane's new lattice vertex; everywhere else it caps the pillow.
+HexPlace PillowStack::place_layer_hex(HexId inner, HexId outer, int axis) const {
+  const HexPlace &a = complex_.places[inner], &b = complex_.places[outer];
+  if (!a.is_lattice() || !b.is_lattice()) return HexPlace::cap(inner, outer);
+  int differing = 0;
+  for (int k = 0; k < 3; ++k) differing |= (a.point()[k] != b.point()[k]) << k;
+  if (differing == 1 << axis && std::abs(a.point()[axis] - b.point()[axis]) == spacing_) {
+    LatticeCoord mid = a.point();
+    mid[axis] = (mid[axis] + b.point()[axis]) / 2;
+    return HexPlace::lattice(mid);
+  }
+  return HexPlace::cap(inner, outer);
+}
+
+}  // namespace hexwright::dual

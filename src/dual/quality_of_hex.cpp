@@ -1,0 +1,41 @@
+#include "dual/quality_of_hex.h"
+
+#include "hexwright/base/parallel.h"
+
+namespace hexwright::dual {
+
+double scaled_jacobian(const HexMesh& mesh, HexId h) {
+  const auto p = mesh.corners(h);
+  double least = 1;
+  for (int lv = 0; lv < 8; ++lv) {
+    const auto& n = kHexCornerNeighbors[lv];
+    const Vec3 e0 = p[n[0]] - p[lv], e1 = p[n[1]] - p[lv], e2 = p[n[2]] - p[lv];
+    const double lengths = std::sqrt(norm_sq(e0) * norm_sq(e1) * norm_sq(e2));
+    least = std::min(least, lengths > 0 ? det(e0, e1, e2) / lengths : -1.0);
+  }
+  return least;
+}
+
+MeshQuality measure_quality(const HexMesh& mesh) {
+  const auto map = [&](std::size_t begin, std::size_t end) {
+    MeshQuality part;
+    for (std::size_t h = begin; h < end; ++h) {
+      const double s = scaled_jacobian(mesh, HexId(h));
+      part.min = std::min(part.min, s);
+      part.avg += s;
+      part.num_inverted += s <= 0;
+    }
+    return part;
+  };
+  const auto combine = [](MeshQuality a, const MeshQuality& b) {
+    a.min = std::min(a.min, b.min);
+    a.avg += b.avg;
+    a.num_inverted += b.num_inverted;
+    return a;
+  };
+  MeshQuality total = parallel_reduce(mesh.num_hexes(), MeshQuality{}, map, combine);
+  if (mesh.num_hexes() > 0) total.avg /= static_cast<double>(mesh.num_hexes());
+  return total;
+}
+
+}  // namespace hexwright::dual

@@ -1,0 +1,19 @@
+// Scaled Jacobian of the hexes, in bulk.
+#pragma once
+
+#include "hexwright/mesh/hex_mesh.h"
+
+namespace hexwright::dual {
+
+struct MeshQuality {
+  double min = 1, avg = 0;
+  std::size_t num_inverted = 0;  ///< hexes with a corner whose Jacobian is not positive
+};
+
+/// Least over the eight corners of the determinant of the normalised edge vectors; -1 when an edge
+/// has no length.
+double scaled_jacobian(const HexMesh& mesh, HexId h);
+
+MeshQuality measure_quality(const HexMesh& mesh);
+
+}  // namespace hexwright::dual
