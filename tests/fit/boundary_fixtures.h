@@ -1,0 +1,104 @@
+// Voxel meshes and matching surfaces for the tests of feature mapping and padding.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "fit/boundary_quads.h"
+#include "fit/map_features.h"
+#include "helpers.h"
+#include "hexwright/fit/carve.h"
+#include "hexwright/mesh/hex_adjacency.h"
+
+namespace hexwright::test {
+
+/// Boundary quads that own their arrays.
+struct OwnedBoundary {
+  IdVector<VertId, Vec3> positions;
+  IdVector<QuadId, std::array<VertId, 4>> quads;
+  IdVector<VertId, double> edge_length;
+  BoundaryQuads view() const {
+    return {IdSpan<VertId, const Vec3>(positions),
+            IdSpan<QuadId, const std::array<VertId, 4>>(quads),
+            IdSpan<VertId, const double>(edge_length)};
+  }
+};
+
+inline OwnedBoundary boundary_of(const HexMesh& mesh) {
+  OwnedBoundary b;
+  b.positions = mesh.positions;
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
+    b.quads.push_back(face_verts(mesh, face));
+  b.edge_length = compute_edge_lengths(IdSpan<VertId, const Vec3>(b.positions),
+                                       IdSpan<QuadId, const std::array<VertId, 4>>(b.quads));
+  return b;
+}
+
+/// The boundary quads of a hex mesh, each cut in two triangles; welded, without stray vertices.
+inline TriMesh surface_of(const HexMesh& mesh) {
+  TriMesh surface;
+  IdVector<VertId, VertId> old_to_new(mesh.num_verts());
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary) {
+    auto q = face_verts(mesh, face);
+    for (VertId& v : q) {
+      if (!old_to_new[v].is_valid())
+        old_to_new[v] = surface.positions.push_back(mesh.positions[v]);
+      v = old_to_new[v];
+    }
+    surface.tris.push_back({q[0], q[1], q[2]});
+    surface.tris.push_back({q[0], q[2], q[3]});
+  }
+  return surface;
+}
+
+/// The unit hexes of an n x n x n box whose centre satisfies a predicate.
+inline HexMesh voxels(int n, const std::function<bool(const Vec3&)>& is_inside) {
+  const HexMesh box = box_hex_mesh(n, n, n);
+  std::vector<char> is_kept(box.num_hexes(), 0);
+  for (HexId h : box.hexes.ids()) {
+    Vec3 center;
+    for (const Vec3& p : box.corners(h)) center += p / 8;
+    is_kept[h.index()] = is_inside(center) ? 1 : 0;
+  }
+  HexMesh mesh;
+  mesh.positions = box.positions;
+  for (HexId h : box.hexes.ids())
+    if (is_kept[h.index()]) mesh.hexes.push_back(box.hexes[h]);
+  remove_unused_verts(mesh);
+  return mesh;
+}
+
+/// A closed cylinder along z about (x, y) = (center, center).
+inline TriMesh cylinder_surface(double center, double radius, double z0, double z1, int segments) {
+  TriMesh s;
+  for (double z : {z0, z1})
+    for (int k = 0; k < segments; ++k) {
+      const double a = 2 * std::numbers::pi * k / segments;
+      s.positions.push_back({center + radius * std::cos(a), center + radius * std::sin(a), z});
+    }
+  const VertId bottom = s.positions.push_back({center, center, z0});
+  const VertId top = s.positions.push_back({center, center, z1});
+  for (int k = 0; k < segments; ++k) {
+    const int next = (k + 1) % segments;
+    const VertId a(k), b(next), c(segments + next), d(segments + k);
+    s.tris.push_back({a, b, c});
+    s.tris.push_back({a, c, d});
+    s.tris.push_back({bottom, b, a});
+    s.tris.push_back({top, d, c});
+  }
+  return s;
+}
+
+inline void transform(IdVector<VertId, Vec3>& positions,
+                      const std::function<Vec3(const Vec3&)>& f) {
+  for (Vec3& p : positions) p = f(p);
+}
+
+/// Rotation about a general axis, to leave the grid's directions.
+inline Vec3 rotated(const Vec3& p, double a) {
+  const double c = std::cos(a), s = std::sin(a);
+  const Vec3 q = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+  return {q.x, c * q.y - s * q.z, s * q.y + c * q.z};
+}
+
+}  // namespace hexwright::test
