@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <tuple>
 
-namespace hexwright {
+namespace hexwright::fitting {
 
-IdVector<VertId, double> compute_edge_lengths(
-    IdSpan<VertId, const Vec3> positions, IdSpan<QuadId, const std::array<VertId, 4>> quads) {
+IdVector<VertId, double> compute_edge_lengths(IdSpan<VertId, const Vec3> positions,
+                                              IdSpan<QuadId, const std::array<VertId, 4>> quads) {
   IdVector<VertId, double> length(positions.size(), 0.0);
   IdVector<VertId, double> count(positions.size(), 0.0);
   for (const auto& quad : quads)
@@ -53,8 +53,8 @@ BoundaryGraph::BoundaryGraph(std::size_t num_verts,
                              IdSpan<QuadId, const std::array<VertId, 4>> quads)
     : quad_edges_(quads.size()), edge_offset_(num_verts + 1, 0), quad_offset_(num_verts + 1, 0) {
   for (const HalfEdge& he : sorted_half_edges(quads)) {
-    const bool is_new = edges_.empty() || edges_.raw().back().a != he.a ||
-                        edges_.raw().back().b != he.b;
+    const bool is_new =
+        edges_.empty() || edges_.raw().back().a != he.a || edges_.raw().back().b != he.b;
     if (is_new) edges_.push_back({he.a, he.b, {}, 0});
     Edge& edge = edges_.raw().back();
     if (edge.num_quads < 2) edge.quads[edge.num_quads] = he.quad;
@@ -112,4 +112,4 @@ BoundaryEdgeId BoundaryGraph::find_edge(VertId a, VertId b) const {
   return edges(a)[static_cast<std::size_t>(it - candidates.begin())];
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -9,7 +9,7 @@
 #include "hexwright/base/vec3.h"
 #include "hexwright/mesh/element_ids.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 
 using BoundaryEdgeId = Id<struct BoundaryEdgeTag>;  ///< edge of the boundary quads
 
@@ -21,15 +21,15 @@ struct BoundaryQuads {
 };
 
 /// Mean length of the boundary edges at each vertex; 0 for a vertex in no quad.
-IdVector<VertId, double> compute_edge_lengths(
-    IdSpan<VertId, const Vec3> positions, IdSpan<QuadId, const std::array<VertId, 4>> quads);
+IdVector<VertId, double> compute_edge_lengths(IdSpan<VertId, const Vec3> positions,
+                                              IdSpan<QuadId, const std::array<VertId, 4>> quads);
 
 /// Edges and vertex stars of boundary quads, as flat arrays. Linear time.
 class BoundaryGraph {
  public:
   struct Edge {
-    VertId a, b;            ///< a < b
-    QuadId quads[2];        ///< the first two quads at the edge
+    VertId a, b;      ///< a < b
+    QuadId quads[2];  ///< the first two quads at the edge
     std::int32_t num_quads = 0;
     VertId other(VertId v) const { return v == a ? b : a; }
     QuadId other(QuadId q) const { return q == quads[0] ? quads[1] : quads[0]; }
@@ -66,4 +66,4 @@ class BoundaryGraph {
   std::vector<QuadId> star_quads_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

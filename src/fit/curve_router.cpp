@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -53,9 +53,8 @@ void CurveRouter::run() {
   for (int it = 0; it < in_.options.max_iterations; ++it) {
     num_iterations_ = it + 1;
     if (!negotiate_round(it)) break;
-    const bool is_relocation =
-        std::find(kRelocationRounds.begin(), kRelocationRounds.end(), it) !=
-        kRelocationRounds.end();
+    const bool is_relocation = std::find(kRelocationRounds.begin(), kRelocationRounds.end(), it) !=
+                               kRelocationRounds.end();
     if (is_relocation) relocate_congested_corners();
   }
   drop_conflicting();
@@ -136,8 +135,7 @@ VertId CurveRouter::best_waypoint(CurveId c, double arc) const {
     if (is_corner(t.vert)) continue;
     if (!is_sharing_allowed_ && occupancy_[t.vert.index()] > 0) continue;
     const double d = distance(in_.boundary.positions[t.vert], p) / in_.boundary.edge_length[t.vert];
-    const double congestion =
-        pressure_ * occupancy_[t.vert.index()] + history_[t.vert.index()];
+    const double congestion = pressure_ * occupancy_[t.vert.index()] + history_[t.vert.index()];
     const double cost = d + 0.2 * congestion;
     if (cost < best_cost) {
       best_cost = cost;
@@ -203,10 +201,10 @@ VertId CurveRouter::best_relocation(std::size_t corner) const {
   double best_cost = kInfinity;
   for (VertId v : candidates) {
     if (is_corner(v)) continue;
-    const double cost = corner_cost(in_.boundary, in_.graph, v,
-                                    in_.surface.positions[in_.features.corners[corner]],
-                                    in_.ends.degree[corner]) +
-                        0.3 * num_moves_[v.index()];
+    const double cost =
+        corner_cost(in_.boundary, in_.graph, v, in_.surface.positions[in_.features.corners[corner]],
+                    in_.ends.degree[corner]) +
+        0.3 * num_moves_[v.index()];
     if (cost < best_cost) {
       best_cost = cost;
       best = v;
@@ -227,7 +225,8 @@ void CurveRouter::relocate_corner(std::size_t corner) {
     const Route& r = routes_[c];
     if (!r.is_alive) continue;
     const auto ends = in_.ends.curve_to_corners[c];
-    const bool is_at_corner = ends[0] == static_cast<int>(corner) || ends[1] == static_cast<int>(corner);
+    const bool is_at_corner =
+        ends[0] == static_cast<int>(corner) || ends[1] == static_cast<int>(corner);
     if (is_at_corner || std::find(r.path.begin(), r.path.end(), now) != r.path.end())
       affected.push_back(c);
   }
@@ -248,8 +247,8 @@ void CurveRouter::drop_conflicting() {
     std::ptrdiff_t worst_count = 0;
     for (CurveId c : order_) {
       const auto& path = routes_[c].path;
-      const auto count = std::count_if(path.begin(), path.end(),
-                                       [&](VertId v) { return is_contested(v); });
+      const auto count =
+          std::count_if(path.begin(), path.end(), [&](VertId v) { return is_contested(v); });
       if (count > worst_count) {
         worst_count = count;
         worst = c;
@@ -282,4 +281,4 @@ bool CurveRouter::try_route(CurveId c) {
   return true;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -10,7 +10,7 @@
 #include "fit/map_features.h"
 #include "fit/match_corners.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 
 /// What the router works on; all of it outlives the router.
 struct RoutingProblem {
@@ -92,4 +92,4 @@ class CurveRouter {
   std::vector<char> is_on_path_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

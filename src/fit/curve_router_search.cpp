@@ -5,7 +5,7 @@
 
 #include "fit/curve_router.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -108,4 +108,4 @@ bool CurveRouter::route_segment(const Search& search, std::vector<VertId>& path)
   return found;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

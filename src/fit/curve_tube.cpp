@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 struct Candidate {
@@ -55,4 +55,4 @@ std::vector<TubeVert> compute_tube(const BoundaryQuads& boundary, const VertReac
   return tube;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -3,10 +3,11 @@
 
 #include <vector>
 
-#include "fit/vert_reach.h"
 #include "hexwright/geometry/feature_graph.h"
 
-namespace hexwright {
+#include "fit/vert_reach.h"
+
+namespace hexwright::fitting {
 
 struct TubeVert {
   VertId vert;
@@ -16,7 +17,6 @@ struct TubeVert {
 
 /// Ascending by vertex. `reach_tree` must have at least the reach asked for.
 std::vector<TubeVert> compute_tube(const BoundaryQuads& boundary, const VertReach& reach_tree,
-                                   const TriMesh& surface, const FeatureCurve& curve,
-                                   double reach);
+                                   const TriMesh& surface, const FeatureCurve& curve, double reach);
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

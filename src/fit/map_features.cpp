@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/curve_router.h"
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+#include "fit/curve_router.h"
+
+namespace hexwright::fitting {
 namespace {
 
 constexpr double kMinSpacing = 0.2;  // of the mean spacing, between consecutive parameters
@@ -126,10 +127,10 @@ FeatureMapping map_features(const BoundaryQuads& boundary, const TriMesh& surfac
   const CornerEnds ends = find_corner_ends(features, options.is_banned);
   const auto tubes = compute_tubes(boundary, tree, surface, features, options);
   const RoutingProblem problem{boundary, graph, surface, features, ends, tubes, options};
-  CurveRouter router(problem, match_corners(boundary, graph, tree, surface, features, ends,
-                                            options.corner_reach));
+  CurveRouter router(
+      problem, match_corners(boundary, graph, tree, surface, features, ends, options.corner_reach));
   router.run();
   return finish(router, problem);
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -8,14 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "fit/boundary_quads.h"
 #include "hexwright/geometry/feature_graph.h"
 
-namespace hexwright {
+#include "fit/boundary_quads.h"
+
+namespace hexwright::fitting {
 
 struct FeatureMapOptions {
-  double corner_reach = 2.5;  ///< a corner's vertex is at most so many edge lengths away
-  double tube_reach = 2.2;    ///< so is every vertex of a path from its curve
+  double corner_reach = 2.5;    ///< a corner's vertex is at most so many edge lengths away
+  double tube_reach = 2.2;      ///< so is every vertex of a path from its curve
   double distance_weight = 10;  ///< cost factor of squared distance (in edge lengths) to the curve
   int max_iterations = 45;
   /// Curves that must not be mapped; empty or one entry per curve.
@@ -43,4 +44,4 @@ struct FeatureMapping {
 FeatureMapping map_features(const BoundaryQuads& boundary, const TriMesh& surface,
                             const FeatureGraph& features, const FeatureMapOptions& options);
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace hexwright {
+namespace hexwright::fitting {
 
 CornerEnds find_corner_ends(const FeatureGraph& features,
                             const IdVector<CurveId, char>& is_banned) {
@@ -38,9 +38,8 @@ std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryG
                                   double reach) {
   std::vector<std::size_t> order(features.corners.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
-    return ends.degree[x] > ends.degree[y];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t x, std::size_t y) { return ends.degree[x] > ends.degree[y]; });
   std::vector<VertId> result(features.corners.size());
   std::vector<char> is_taken(graph.num_verts(), 0);
   std::vector<VertId> found;
@@ -64,4 +63,4 @@ std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryG
   return result;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -3,10 +3,11 @@
 
 #include <vector>
 
-#include "fit/vert_reach.h"
 #include "hexwright/geometry/feature_graph.h"
 
-namespace hexwright {
+#include "fit/vert_reach.h"
+
+namespace hexwright::fitting {
 
 /// Which curves end at which corner.
 struct CornerEnds {
@@ -14,8 +15,7 @@ struct CornerEnds {
   IdVector<CurveId, std::array<int, 2>> curve_to_corners;
   std::vector<int> degree;  ///< per corner: ends of curves that are not banned
 };
-CornerEnds find_corner_ends(const FeatureGraph& features,
-                            const IdVector<CurveId, char>& is_banned);
+CornerEnds find_corner_ends(const FeatureGraph& features, const IdVector<CurveId, char>& is_banned);
 
 /// How well a vertex suits a corner, lower is better: distance in edge lengths plus one per edge
 /// that the vertex lacks.
@@ -29,4 +29,4 @@ std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryG
                                   const FeatureGraph& features, const CornerEnds& ends,
                                   double reach);
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -6,7 +6,7 @@
 
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 struct Ballot {
@@ -114,4 +114,4 @@ std::vector<char> mapped_curves(const FeatureMapping& mapping) {
   return is_mapped;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

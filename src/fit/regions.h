@@ -3,11 +3,12 @@
 
 #include <vector>
 
-#include "fit/map_features.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
 
-namespace hexwright {
+#include "fit/map_features.h"
+
+namespace hexwright::fitting {
 
 using RegionId = Id<struct RegionTag>;  ///< connected set of boundary quads between marked edges
 
@@ -36,4 +37,4 @@ void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, Region
 /// Per curve: 1 when mapped; what compute_patches calls a barrier.
 std::vector<char> mapped_curves(const FeatureMapping& mapping);
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 constexpr std::size_t kLeafSize = 8;
@@ -71,4 +71,4 @@ void VertReach::find(const Box3& box, std::vector<VertId>& found) const {
   }
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -1,11 +1,12 @@
-// Finds the boundary vertices near a box, where "near" is measured in each vertex's own edge length.
+// Finds the boundary vertices near a box, where "near" is measured in each vertex's own edge
+// length.
 #pragma once
 
 #include <vector>
 
 #include "fit/boundary_quads.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 
 /// A tree over boxes of half width `reach` x edge length around vertices.
 class VertReach {
@@ -30,4 +31,4 @@ class VertReach {
   std::vector<Node> nodes_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::fitting

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <functional>
 
-#include "fit/boundary_quads.h"
-#include "fit/map_features.h"
-#include "helpers.h"
 #include "hexwright/fit/carve.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "fit/boundary_quads.h"
+#include "fit/map_features.h"
+#include "helpers.h"
+
 namespace hexwright::test {
+
+using fitting::BoundaryQuads;
 
 /// Boundary quads that own their arrays.
 struct OwnedBoundary {
@@ -29,8 +32,9 @@ inline OwnedBoundary boundary_of(const HexMesh& mesh) {
   b.positions = mesh.positions;
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
     b.quads.push_back(face_verts(mesh, face));
-  b.edge_length = compute_edge_lengths(IdSpan<VertId, const Vec3>(b.positions),
-                                       IdSpan<QuadId, const std::array<VertId, 4>>(b.quads));
+  b.edge_length =
+      fitting::compute_edge_lengths(IdSpan<VertId, const Vec3>(b.positions),
+                                    IdSpan<QuadId, const std::array<VertId, 4>>(b.quads));
   return b;
 }
 
@@ -41,8 +45,7 @@ inline TriMesh surface_of(const HexMesh& mesh) {
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary) {
     auto q = face_verts(mesh, face);
     for (VertId& v : q) {
-      if (!old_to_new[v].is_valid())
-        old_to_new[v] = surface.positions.push_back(mesh.positions[v]);
+      if (!old_to_new[v].is_valid()) old_to_new[v] = surface.positions.push_back(mesh.positions[v]);
       v = old_to_new[v];
     }
     surface.tris.push_back({q[0], q[1], q[2]});

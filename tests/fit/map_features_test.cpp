@@ -6,8 +6,9 @@
 
 #include "boundary_fixtures.h"
 #include "fit/regions.h"
+#include "fit/vert_reach.h"
 
-namespace hexwright {
+namespace hexwright::fitting {
 namespace {
 
 using test::OwnedBoundary;
@@ -259,7 +260,7 @@ TEST(VertReach, FindsWhatBruteForceFinds) {
   for (int i = 0; i < 200; ++i) {
     Box3 box;
     for (int k = 0; k < 2; ++k)
-      box.extend({8 * unit(random) - 1, 8 * unit(random) - 1, 8 * unit(random) - 1});
+      box.extend(Vec3{8 * unit(random) - 1, 8 * unit(random) - 1, 8 * unit(random) - 1});
     std::vector<VertId> found, expected;
     tree.find(box, found);
     std::sort(found.begin(), found.end());
@@ -276,4 +277,4 @@ TEST(VertReach, FindsWhatBruteForceFinds) {
 }
 
 }  // namespace
-}  // namespace hexwright
+}  // namespace hexwright::fitting
