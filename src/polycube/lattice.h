@@ -1,0 +1,36 @@
+// The polycube's integer lattice: its axis-aligned boundary planes snapped to integers, and the cubes inside.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hexwright/grid/grid.h"
+#include "hexwright/mesh/tet_mesh.h"
+
+namespace hexwright::polycube {
+
+/// A connected part of the boundary whose facets face one of the six axis directions.
+struct Chart {
+  int axis = 0;
+  int sign = 1;           ///< +1 when it faces up the axis
+  double coordinate = 0;  ///< area-weighted mean along the axis, in the input's units
+  int plane = 0;          ///< integer coordinate on the lattice
+};
+
+struct Lattice {
+  TetMesh tets;                             ///< the polycube moved to lattice units, boundary vertices exactly on planes
+  IdVector<TriId, std::array<VertId, 3>> facets;  ///< the boundary, outward
+  IdVector<TriId, int> facet_to_chart;
+  std::vector<Chart> charts;
+  std::vector<LatticeCoord> roots;          ///< unit cubes inside, sorted (z, y, x)
+  double spacing = 0;
+  double max_deviation = 0;                 ///< share of the spacing
+  std::size_t num_unaligned = 0;            ///< facets that face no axis but are too small to matter
+};
+
+/// `spacing` 0 derives it: the least distance of two planes of an axis, at least 1/16 of the extent.
+/// Errors: BadGeometry naming the facet that is not axis-aligned, or when no cube fits.
+Lattice fit_lattice(const TetMesh& polycube, double spacing);
+
+}  // namespace hexwright::polycube
