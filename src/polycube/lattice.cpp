@@ -1,5 +1,6 @@
-// Charts are grown over facets of equal direction; each axis is then mapped piecewise linearly so that its planes land on
-// integers. Two planes never fall together, however thin the part between them.
+// Charts are grown over facets of equal direction; each axis is then mapped piecewise linearly so
+// that its planes land on integers. Two planes never fall together, however thin the part between
+// them.
 #include "polycube/lattice.h"
 
 #include <algorithm>
@@ -9,16 +10,18 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/surface_tree.h"
+
 #include "polycube/tet_boundary.h"
 
 namespace hexwright::polycube {
 namespace {
 
-constexpr double kAlignedCosine = 0.94;         // facets within 20 degrees of an axis are aligned
-constexpr double kNegligibleArea = 1e-2;        // share of the boundary that may be unaligned
-constexpr double kSamePlane = 2e-2;             // planes closer than this share of the extent are one
-constexpr double kLargestDeviation = 0.25;      // of a vertex from its chart's plane, share of the spacing
-constexpr int kMostCubesPerAxis = 16;           // of a derived spacing
+constexpr double kAlignedCosine = 0.94;   // facets within 20 degrees of an axis are aligned
+constexpr double kNegligibleArea = 1e-2;  // share of the boundary that may be unaligned
+constexpr double kSamePlane = 2e-2;       // planes closer than this share of the extent are one
+constexpr double kLargestDeviation =
+    0.25;                              // of a vertex from its chart's plane, share of the spacing
+constexpr int kMostCubesPerAxis = 16;  // of a derived spacing
 
 struct FacetGeometry {
   Vec3 normal;  // area vector
@@ -38,7 +41,8 @@ int facet_direction(const Vec3& area_vector) {
   return -1;
 }
 
-// The up to three facets across the edges of each boundary facet (the lowest id where an edge has more).
+// The up to three facets across the edges of each boundary facet (the lowest id where an edge has
+// more).
 IdVector<TriId, std::array<TriId, 3>> facet_neighbors(
     const IdVector<TriId, std::array<VertId, 3>>& facets) {
   std::unordered_map<std::uint64_t, std::vector<std::pair<TriId, int>>> by_edge;
@@ -57,7 +61,8 @@ IdVector<TriId, std::array<TriId, 3>> facet_neighbors(
   return neighbor;
 }
 
-// Unaligned facets take the direction of an aligned neighbour; refuses when they are too much of the boundary.
+// Unaligned facets take the direction of an aligned neighbour; refuses when they are too much of
+// the boundary.
 IdVector<TriId, int> facet_directions(const Lattice& lattice, std::size_t& num_unaligned,
                                       const IdVector<TriId, std::array<TriId, 3>>& neighbor) {
   IdVector<TriId, int> direction(lattice.facets.size(), -1);
@@ -157,8 +162,8 @@ double to_lattice(double x, const std::vector<double>& planes, const std::vector
                   double spacing) {
   if (x <= planes.front()) return integers.front() + (x - planes.front()) / spacing;
   if (x >= planes.back()) return integers.back() + (x - planes.back()) / spacing;
-  const auto i = static_cast<std::size_t>(
-      std::upper_bound(planes.begin(), planes.end(), x) - planes.begin());
+  const auto i =
+      static_cast<std::size_t>(std::upper_bound(planes.begin(), planes.end(), x) - planes.begin());
   const double t = (x - planes[i - 1]) / (planes[i] - planes[i - 1]);
   return integers[i - 1] + t * (integers[i] - integers[i - 1]);
 }

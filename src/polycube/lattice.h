@@ -1,4 +1,5 @@
-// The polycube's integer lattice: its axis-aligned boundary planes snapped to integers, and the cubes inside.
+// The polycube's integer lattice: its axis-aligned boundary planes snapped to integers, and the
+// cubes inside.
 #pragma once
 
 #include <array>
@@ -19,18 +20,18 @@ struct Chart {
 };
 
 struct Lattice {
-  TetMesh tets;                             ///< the polycube moved to lattice units, boundary vertices exactly on planes
+  TetMesh tets;  ///< the polycube moved to lattice units, boundary vertices exactly on planes
   IdVector<TriId, std::array<VertId, 3>> facets;  ///< the boundary, outward
   IdVector<TriId, int> facet_to_chart;
   std::vector<Chart> charts;
-  std::vector<LatticeCoord> roots;          ///< unit cubes inside, sorted (z, y, x)
+  std::vector<LatticeCoord> roots;  ///< unit cubes inside, sorted (z, y, x)
   double spacing = 0;
-  double max_deviation = 0;                 ///< share of the spacing
-  std::size_t num_unaligned = 0;            ///< facets that face no axis but are too small to matter
+  double max_deviation = 0;       ///< share of the spacing
+  std::size_t num_unaligned = 0;  ///< facets that face no axis but are too small to matter
 };
 
-/// `spacing` 0 derives it: the least distance of two planes of an axis, at least 1/16 of the extent.
-/// Errors: BadGeometry naming the facet that is not axis-aligned, or when no cube fits.
+/// `spacing` 0 derives it: the least distance of two planes of an axis, at least 1/16 of the
+/// extent. Errors: BadGeometry naming the facet that is not axis-aligned, or when no cube fits.
 Lattice fit_lattice(const TetMesh& polycube, double spacing);
 
 }  // namespace hexwright::polycube

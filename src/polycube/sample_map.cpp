@@ -1,14 +1,17 @@
 #include "polycube/sample_map.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <span>
 
 #include "hexwright/base/parallel.h"
+#include "hexwright/grid/locate.h"
 
 namespace hexwright::polycube {
 namespace {
 
-// Widths of a growing point set along 13 directions: the largest is a lower bound of its diameter, at most 4% short.
+// Widths of a growing point set along 13 directions: the largest is a lower bound of its diameter,
+// at most 4% short.
 class Spread {
  public:
   void add(const Vec3& p) {
@@ -52,7 +55,7 @@ class VertsByCell {
   VertsByCell(const Grid& grid, const TetMesh& tets) : offset_(grid.num_cells() + 1, 0) {
     std::vector<CellId> vert_to_cell(tets.num_verts());
     parallel_for(tets.num_verts(), [&](std::size_t v) {
-      vert_to_cell[v] = find_cell(grid, tets.positions[VertId(v)]);
+      vert_to_cell[v] = find_leaf_at(grid, tets.positions[VertId(v)]);
     });
     for (CellId c : vert_to_cell)
       if (c.is_valid()) ++offset_[c.index() + 1];
@@ -67,21 +70,9 @@ class VertsByCell {
   }
 
  private:
-  static CellId find_cell(const Grid& grid, const Vec3& p);
   std::vector<std::size_t> offset_;
   std::vector<VertId> verts_;
 };
-
-// Leaves are in Morton order within each root, so the one holding a point is the last whose corner does not come after it.
-CellId VertsByCell::find_cell(const Grid& grid, const Vec3& p) {
-  const double n = static_cast<double>(1 << grid.finest_level);
-  LatticeCoord q, root;
-  for (int axis = 0; axis < 3; ++axis) {
-    q[axis] = static_cast<std::int32_t>(std::floor(p[axis] * n));
-    root[axis] = q[axis] >> grid.finest_level;
-  }
-  return find_leaf(grid, q);
-}
 
 }  // namespace
 
@@ -115,7 +106,8 @@ Grid sample_map(const TetMesh& object, const Lattice& lattice, const TetLocator&
           is_marked[c] = level < options.min_level || spread.width() > limit;
         },
         16);
-    const auto num_marked = static_cast<std::size_t>(std::count(is_marked.begin(), is_marked.end(), 1));
+    const auto num_marked =
+        static_cast<std::size_t>(std::count(is_marked.begin(), is_marked.end(), 1));
     if (num_marked == 0) break;
     if (grid.num_cells() + 7 * num_marked > options.max_cells)
       throw Error(ErrorCode::OutOfResources,

@@ -8,7 +8,8 @@ namespace hexwright::polycube {
 namespace {
 
 // Local faces of a positive tet, counter-clockwise seen from outside.
-constexpr std::array<std::array<int, 3>, 4> kTetFaces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<std::array<int, 3>, 4> kTetFaces = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct KeyedFacet {
   std::array<VertId, 3> key;  // sorted

@@ -6,8 +6,8 @@
 
 namespace hexwright::polycube {
 
-/// Facets that belong to one tet only, outward by the tets' orientation, in order of (tet, local face). Vertex ids are those
-/// of the tet mesh.
+/// Facets that belong to one tet only, outward by the tets' orientation, in order of (tet, local
+/// face). Vertex ids are those of the tet mesh.
 IdVector<TriId, std::array<VertId, 3>> boundary_facets(const TetMesh& mesh);
 
 }  // namespace hexwright::polycube

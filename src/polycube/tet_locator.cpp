@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hexwright/base/error.h"
+
 namespace hexwright::polycube {
 namespace {
 
@@ -27,9 +29,7 @@ TriMesh all_facets(const TetMesh& mesh, const std::vector<TetId>& tets) {
 
 }  // namespace
 
-double tet_det(const std::array<Vec3, 4>& p) {
-  return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]);
-}
+double tet_det(const std::array<Vec3, 4>& p) { return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]); }
 
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& t, const Vec3& p) {
   const double volume = tet_det(t);
@@ -57,7 +57,8 @@ TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
   build();
 }
 
-// Median split of the centres along the longest axis; ties by id, so that the tree is always the same.
+// Median split of the centres along the longest axis; ties by id, so that the tree is always the
+// same.
 void TetLocator::build() {
   const std::vector<TetId> facet_order = order_;
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size())});

@@ -14,15 +14,18 @@ namespace hexwright::polycube {
 struct TetPoint {
   TetId tet;
   std::array<double, 4> weight = {};  ///< non-negative, sum 1
-  bool is_bridged = false;            ///< the point lies in no positive tet; this is the nearest place that does
+  bool is_bridged =
+      false;  ///< the point lies in no positive tet; this is the nearest place that does
 };
 
-/// Positive tets only; others are skipped, and points in them bridged. Thread-safe after construction.
+/// Positive tets only; others are skipped, and points in them bridged. Thread-safe after
+/// construction.
 class TetLocator {
  public:
   explicit TetLocator(const TetMesh& mesh);
 
-  /// Among the tets around a shared facet, edge or vertex: the one the point is deepest in, then the lowest id.
+  /// Among the tets around a shared facet, edge or vertex: the one the point is deepest in, then
+  /// the lowest id.
   TetPoint locate(const Vec3& p) const;
 
   std::size_t num_nonpositive() const { return num_nonpositive_; }
@@ -30,7 +33,8 @@ class TetLocator {
  private:
   struct Node {
     Box3 box;
-    std::uint32_t first = 0, count = 0;  // leaf: tets first .. first+count; inner: children at first, first+1
+    std::uint32_t first = 0,
+                  count = 0;  // leaf: tets first .. first+count; inner: children at first, first+1
   };
   void build();
   TetPoint nearest(const Vec3& p) const;
@@ -44,7 +48,8 @@ class TetLocator {
   std::unique_ptr<SurfaceTree> facets_;  // the 4 facets of each positive tet, for bridging
 };
 
-/// Barycentric coordinates of p in a tet; they sum to 1 and are negative outside. Requires a positive volume.
+/// Barycentric coordinates of p in a tet; they sum to 1 and are negative outside. Requires a
+/// positive volume.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& tet, const Vec3& p);
 
 /// Signed volume times six.
@@ -58,8 +63,7 @@ inline std::array<Vec3, 4> tet_corners(const TetMesh& mesh, TetId t) {
 /// The combination's place in a mesh of the same connectivity.
 inline Vec3 interpolate(const TetMesh& mesh, const TetPoint& at) {
   Vec3 p;
-  for (std::size_t k = 0; k < 4; ++k)
-    p += mesh.positions[mesh.tets[at.tet][k]] * at.weight[k];
+  for (std::size_t k = 0; k < 4; ++k) p += mesh.positions[mesh.tets[at.tet][k]] * at.weight[k];
   return p;
 }
 

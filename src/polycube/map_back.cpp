@@ -1,0 +1,193 @@
+#include "polycube/map_back.h"
+
+#include <algorithm>
+#include <map>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/mesh/hex_adjacency.h"
+
+namespace hexwright::polycube {
+namespace {
+
+// The polycube's boundary by direction, for closest-point queries that cannot cross an edge.
+class BoundaryLocator {
+ public:
+  BoundaryLocator(const Lattice& lattice) : lattice_(lattice) {
+    for (int direction = 0; direction < 6; ++direction) {
+      TriMesh part;
+      part.positions = lattice.tets.positions;
+      for (TriId f : lattice.facets.ids()) {
+        if (direction_of(f) != direction) continue;
+        part.tris.push_back(lattice.facets[f]);
+        facets_[direction].push_back(f);
+      }
+      trees_.emplace_back(std::move(part));
+    }
+  }
+
+  // The facet and point nearest to p among the facets of one direction.
+  struct Hit {
+    TriId facet;
+    Vec3 point;
+  };
+  Hit closest(const Vec3& p, int direction) const {
+    const auto hit = trees_[static_cast<std::size_t>(direction)].closest(p);
+    return {facets_[direction][hit->tri.index()], hit->point};
+  }
+
+  int direction_of(TriId f) const {
+    const Chart& chart = lattice_.charts[static_cast<std::size_t>(lattice_.facet_to_chart[f])];
+    return 2 * chart.axis + (chart.sign > 0 ? 1 : 0);
+  }
+
+ private:
+  const Lattice& lattice_;
+  std::array<std::vector<TriId>, 6> facets_;
+  std::vector<SurfaceTree> trees_;
+};
+
+// A boundary edge or vertex of the polycube that separates charts.
+struct Crease {
+  std::array<VertId, 2> verts;
+  std::array<int, 2> directions;  // of the two charts, ascending
+};
+
+Vec3 interpolate_facet(const TetMesh& object, const Lattice& lattice, TriId facet, const Vec3& p) {
+  const auto& f = lattice.facets[facet];
+  const Vec3 &a = lattice.tets.positions[f[0]], &b = lattice.tets.positions[f[1]],
+             &c = lattice.tets.positions[f[2]];
+  const Vec3 n = cross(b - a, c - a);
+  const double area_sq = norm_sq(n);
+  if (area_sq <= 0) return object.positions[f[0]];
+  const double wa = std::clamp(dot(cross(b - p, c - p), n) / area_sq, 0.0, 1.0);
+  const double wb = std::clamp(dot(cross(c - p, a - p), n) / area_sq, 0.0, 1.0 - wa);
+  return object.positions[f[0]] * wa + object.positions[f[1]] * wb +
+         object.positions[f[2]] * (1 - wa - wb);
+}
+
+std::vector<Crease> find_creases(const Lattice& lattice, const BoundaryLocator& boundary) {
+  std::map<std::array<VertId, 2>, std::vector<TriId>> by_edge;
+  for (TriId f : lattice.facets.ids())
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<VertId, 2> edge = {lattice.facets[f][k], lattice.facets[f][(k + 1) % 3]};
+      if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
+      by_edge[edge].push_back(f);
+    }
+  std::vector<Crease> creases;
+  for (const auto& [edge, facets] : by_edge) {
+    if (facets.size() != 2) continue;
+    std::array<int, 2> d = {boundary.direction_of(facets[0]), boundary.direction_of(facets[1])};
+    if (lattice.facet_to_chart[facets[0]] == lattice.facet_to_chart[facets[1]]) continue;
+    if (d[1] < d[0]) std::swap(d[0], d[1]);
+    creases.push_back({edge, d});
+  }
+  return creases;
+}
+
+// The directions (bit per 2 * axis + up) of the boundary quads at each vertex; 0 inside.
+IdVector<VertId, int> boundary_directions(const HexMesh& mesh) {
+  IdVector<VertId, int> directions(mesh.num_verts(), 0);
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary) {
+    const auto q = face_verts(mesh, face);
+    const Vec3 n = cross(mesh.positions[q[2]] - mesh.positions[q[0]],
+                         mesh.positions[q[3]] - mesh.positions[q[1]]);
+    int axis = 0;
+    for (int a = 1; a < 3; ++a)
+      if (std::abs(n[a]) > std::abs(n[axis])) axis = a;
+    for (VertId v : q) directions[v] |= 1 << (2 * axis + (n[axis] > 0 ? 1 : 0));
+  }
+  return directions;
+}
+
+Vec3 on_crease(const TetMesh& object, const Lattice& lattice, const std::vector<Crease>& creases,
+               int directions, const Vec3& p) {
+  double best = std::numeric_limits<double>::infinity();
+  Vec3 image;
+  for (const Crease& crease : creases) {
+    if (((1 << crease.directions[0]) | (1 << crease.directions[1])) != directions) continue;
+    const Vec3 &a = lattice.tets.positions[crease.verts[0]],
+               &b = lattice.tets.positions[crease.verts[1]];
+    const double length_sq = norm_sq(b - a);
+    const double t = length_sq > 0 ? std::clamp(dot(p - a, b - a) / length_sq, 0.0, 1.0) : 0;
+    const double d = norm_sq(a + (b - a) * t - p);
+    if (d >= best) continue;
+    best = d;
+    image = object.positions[crease.verts[0]] * (1 - t) + object.positions[crease.verts[1]] * t;
+  }
+  return image;
+}
+
+// Polycube vertices where charts of three or more directions meet, with those directions.
+std::map<VertId, int> find_corner_directions(const std::vector<Crease>& creases) {
+  std::map<VertId, int> directions, num_creases;
+  for (const Crease& crease : creases)
+    for (VertId v : crease.verts) {
+      directions[v] |= 1 << crease.directions[0] | 1 << crease.directions[1];
+      ++num_creases[v];
+    }
+  for (const auto& [v, count] : num_creases)
+    if (count == 2) directions.erase(v);
+  return directions;
+}
+
+Vec3 at_corner(const TetMesh& object, const Lattice& lattice,
+               const std::map<VertId, int>& corner_to_directions, int directions, const Vec3& p) {
+  double best = std::numeric_limits<double>::infinity();
+  VertId nearest;
+  for (const auto& [v, has] : corner_to_directions) {
+    const double mismatch =
+        has == directions ? 0 : 1;  // lattice units: another corner is a last resort
+    const double d = norm_sq(lattice.tets.positions[v] - p) + mismatch;
+    if (d < best) {
+      best = d;
+      nearest = v;
+    }
+  }
+  return nearest.is_valid() ? object.positions[nearest] : p;
+}
+
+}  // namespace
+
+ObjectFeatures object_features(const TetMesh& object, const Lattice& lattice) {
+  ObjectFeatures features;
+  features.surface.positions = object.positions;
+  features.surface.tris = lattice.facets;
+  for (const Crease& crease : find_creases(lattice, BoundaryLocator(lattice)))
+    features.chart_edges.push_back(crease.verts);
+  return features;
+}
+
+MappedMesh map_back(const HexMesh& hexes, const TetMesh& object, const Lattice& lattice,
+                    const TetLocator& locator) {
+  const BoundaryLocator boundary(lattice);
+  const auto creases = find_creases(lattice, boundary);
+  const auto corners = find_corner_directions(creases);
+  const auto directions = boundary_directions(hexes);
+  MappedMesh result{hexes, 0};
+  std::vector<char> is_bridged(hexes.num_verts(), 0);
+  parallel_for(
+      hexes.num_verts(),
+      [&](std::size_t i) {
+        const VertId v(i);
+        const Vec3& p = hexes.positions[v];
+        const int num_directions = __builtin_popcount(static_cast<unsigned>(directions[v]));
+        Vec3& image = result.mesh.positions[v];
+        if (num_directions == 0) {
+          const TetPoint at = locator.locate(p);
+          is_bridged[i] = at.is_bridged;
+          image = interpolate(object, at);
+        } else if (num_directions == 1) {
+          const auto hit = boundary.closest(p, __builtin_ctz(static_cast<unsigned>(directions[v])));
+          image = interpolate_facet(object, lattice, hit.facet, hit.point);
+        } else if (num_directions == 2) {
+          image = on_crease(object, lattice, creases, directions[v], p);
+        } else {
+          image = at_corner(object, lattice, corners, directions[v], p);
+        }
+      },
+      64);
+  for (char bridged : is_bridged) result.num_bridged += bridged != 0;
+  return result;
+}
+
+}  // namespace hexwright::polycube
