@@ -1,0 +1,106 @@
+#include "polycube/lattice.h"
+
+#include <gtest/gtest.h>
+
+#include "hexwright/base/error.h"
+
+#include "polycube/tet_boundary.h"
+#include "polycube/tet_builders.h"
+#include "polycube/tet_locator.h"
+
+namespace hexwright::polycube {
+namespace {
+
+const std::vector<LatticeCoord> kL = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+double facet_area_sum(const TetMesh& mesh, Vec3& vector_sum) {
+  double area = 0;
+  for (const auto& f : boundary_facets(mesh)) {
+    const Vec3 n = cross(mesh.positions[f[1]] - mesh.positions[f[0]],
+                         mesh.positions[f[2]] - mesh.positions[f[0]]) *
+                   0.5;
+    area += norm(n);
+    vector_sum += n;
+  }
+  return area;
+}
+
+TEST(TetBoundary, FacetsCloseUpAndPointOutwards) {
+  const TetMesh mesh = test::tet_cubes(kL, 2);
+  Vec3 sum;
+  EXPECT_NEAR(facet_area_sum(mesh, sum), 14, 1e-12);
+  EXPECT_NEAR(norm(sum), 0, 1e-12);
+  double volume = 0;  // divergence theorem: positive only when facets face outwards
+  for (const auto& f : boundary_facets(mesh))
+    volume += det(mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]) / 6;
+  EXPECT_NEAR(volume, 3, 1e-12);
+}
+
+TEST(Lattice, FindsTheCubesOfAnLShape) {
+  const Lattice lattice = fit_lattice(test::tet_cubes(kL, 3), 0);
+  EXPECT_EQ(lattice.roots, (std::vector<LatticeCoord>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(lattice.charts.size(), 8u);
+  EXPECT_NEAR(lattice.spacing, 1, 1e-12);
+  EXPECT_EQ(lattice.num_unaligned, 0u);
+}
+
+TEST(Lattice, SnapsUnevenPlanesToIntegers) {
+  const auto uneven = [](Vec3 p) {
+    return Vec3{5 + 0.7 * p.x + (p.x > 1 ? 0.2 * (p.x - 1) : 0), -3 + 0.9 * p.y, 0.8 * p.z};
+  };
+  const Lattice lattice = fit_lattice(test::mapped(test::tet_cubes(kL, 2), uneven), 0.8);
+  EXPECT_EQ(lattice.roots.size(), 3u);
+  for (TriId f : lattice.facets.ids())
+    for (VertId v : lattice.facets[f]) {
+      const Chart& chart = lattice.charts[static_cast<std::size_t>(lattice.facet_to_chart[f])];
+      EXPECT_EQ(lattice.tets.positions[v][chart.axis], chart.plane);
+    }
+}
+
+TEST(Lattice, SmallerSpacingGivesMoreCubes) {
+  EXPECT_EQ(fit_lattice(test::tet_cubes(kL, 2), 0.5).roots.size(), 24u);
+}
+
+TEST(Lattice, RefusesABoundaryThatIsNotAxisAligned) {
+  const auto rotated = [](Vec3 p) { return Vec3{p.x - p.y, p.x + p.y, p.z}; };
+  try {
+    fit_lattice(test::mapped(test::tet_cubes(kL, 2), rotated), 0);
+    FAIL() << "a rotated polycube was accepted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::BadGeometry);
+    EXPECT_NE(std::string(e.what()).find("first facet"), std::string::npos) << e.what();
+  }
+}
+
+TEST(TetLocator, FindsEveryPointWhereItIs) {
+  const TetMesh mesh = test::mapped(test::tet_cubes(kL, 3), [](Vec3 p) {
+    return Vec3{p.x + 0.1 * p.y * p.z, p.y, p.z + 0.2 * p.x * p.x};
+  });
+  const TetLocator locator(mesh);
+  std::uint32_t seed = 7;
+  const auto random = [&] { return (seed = seed * 1664525u + 1013904223u) / 4294967296.0; };
+  for (int i = 0; i < 2000; ++i) {
+    const TetId tet(static_cast<int>(random() * static_cast<double>(mesh.num_tets())));
+    TetPoint at{tet, {random(), random(), random(), random()}, false};
+    double sum = 0;
+    for (double w : at.weight) sum += w;
+    for (double& w : at.weight) w /= sum;
+    const Vec3 p = interpolate(mesh, at);
+    const TetPoint found = locator.locate(p);
+    EXPECT_FALSE(found.is_bridged);
+    EXPECT_NEAR(distance(interpolate(mesh, found), p), 0, 1e-12);
+  }
+}
+
+TEST(TetLocator, BridgesPointsOutsideAndCountsInvertedTets) {
+  TetMesh mesh = test::tet_cubes({{0, 0, 0}}, 1);
+  std::swap(mesh.tets[TetId(0)][0], mesh.tets[TetId(0)][1]);
+  const TetLocator locator(mesh);
+  EXPECT_EQ(locator.num_nonpositive(), 1u);
+  const TetPoint outside = locator.locate({0.3, 0.2, 1.5});
+  EXPECT_TRUE(outside.is_bridged);
+  EXPECT_NEAR(distance(interpolate(mesh, outside), {0.3, 0.2, 1}), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace hexwright::polycube
