@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "hexwright/base/function_ref.h"
@@ -54,7 +55,7 @@ T parallel_reduce(std::size_t count, T init, Map&& map, Combine&& combine,
     partial[begin / grain] = map(begin, end);
   });
   T total = init;
-  for (T& value : partial) total = combine(total, value);
+  for (T& value : partial) total = combine(std::move(total), value);
   return total;
 }
 

@@ -15,6 +15,8 @@ struct TopologyReport {
   std::size_t num_doublets = 0;           ///< pairs of hexes sharing two or more faces
   std::size_t num_nonmanifold_edges = 0;  ///< boundary edges with other than two boundary quads
   std::size_t num_nonmanifold_verts = 0;  ///< boundary vertices with more than one fan of quads
+  std::size_t num_singular_verts = 0;  ///< vertices whose link is not a sphere (inside) or a disc
+                                       ///< (boundary); not counted when faces or hexes are broken
   std::size_t num_hanging =
       0;  ///< vertices lying inside another hex's edge or face (non-conforming grids)
   std::size_t num_components = 0;  ///< of hexes, connected across faces
