@@ -138,8 +138,12 @@ TEST(Positivity, AgreesWithDenseSampling) {
     const Positivity result = check_positivity(p);
     ++count[static_cast<std::size_t>(result)];
     const double least = least_sampled_jacobian(p, 12);
-    if (result == Positivity::Positive) EXPECT_GT(least, 0) << "hex " << k;
-    if (least <= 0) EXPECT_EQ(result, Positivity::NotPositive) << "hex " << k;
+    if (result == Positivity::Positive) {
+      EXPECT_GT(least, 0) << "hex " << k;
+    }
+    if (least <= 0) {
+      EXPECT_EQ(result, Positivity::NotPositive) << "hex " << k;
+    }
   }
   EXPECT_GT(count[0], 100);
   EXPECT_GT(count[1], 100);
