@@ -1,0 +1,69 @@
+// What the passes of the fit work on: the mesh, its adjacency, and per vertex where it belongs on
+// the surface and which target it is pulled to.
+#pragma once
+
+#include <vector>
+
+#include "hexwright/geometry/feature_graph.h"
+#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/mesh/hex_adjacency.h"
+#include "hexwright/mesh/vertex_newton.h"
+
+namespace hexwright::fitting {
+
+/// What part of the surface a vertex belongs to. Interior vertices belong to none.
+enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
+
+/// Copied as a whole to try a variant and go back.
+struct FitState {
+  explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) { rebuild(); }
+
+  HexMesh mesh;
+
+  // Where each vertex belongs (set by the mapping; `rebuild` makes new boundary vertices Surface).
+  IdVector<VertId, VertKind> kind;
+  IdVector<VertId, PatchId> patch;         ///< of Surface vertices; invalid = anywhere
+  IdVector<VertId, CurveId> curve;         ///< of Curve vertices
+  IdVector<VertId, double> arc;            ///< of Curve vertices: arc length on the curve
+  IdVector<VertId, VertId> feature_point;  ///< of Corner vertices: the surface's vertex
+
+  // What each vertex is pulled to (set by update_targets).
+  IdVector<VertId, Vec3> target;
+  IdVector<VertId, Vec3> direction;  ///< Surface: normal; Curve: tangent (maybe shorter than 1)
+  IdVector<VertId, MoveIn> move;     ///< vertices on a fixed outer boundary move in it only
+  IdVector<VertId, Vec3> axis;       ///< of that plane or line
+  IdVector<VertId, double> size;     ///< h: mean length of boundary edges (inside: of all edges)
+  IdVector<VertId, char> is_dirty;   ///< worth solving: it, a neighbour or its target moved
+
+  // Derived from the mesh by rebuild().
+  VertToHex vert_to_hex;
+  VertexStars stars;
+  VertexColors colors;
+  HexNeighbors neighbors;
+  /// Quads to be fitted to the surface, outward of the kept side; quad q belongs to quad_face[q].
+  std::vector<std::array<VertId, 4>> quads;
+  std::vector<HexFace> quad_face;
+
+  std::size_t num_verts() const { return mesh.num_verts(); }
+  bool is_boundary(VertId v) const { return kind[v] != VertKind::Interior; }
+  /// Distance from the vertex to what it is attached to, in units of its size.
+  double residual(VertId v) const;
+
+  /// Recomputes everything derived after the connectivity changed. Per-vertex arrays grow to the
+  /// new vertices; vertices on quads that are Interior become Surface; sizes are recomputed, all
+  /// vertices become dirty.
+  void rebuild();
+  /// Recomputes `size` from the present positions.
+  void update_sizes();
+  void mark_all_dirty() { is_dirty.assign(num_verts(), 1); }
+  /// Grows the per-vertex arrays to the number of positions (called by rebuild).
+  void resize_arrays();
+};
+
+/// The surface and its features as the passes see them.
+struct FitTarget {
+  SurfaceTree& tree;  ///< carries the patches of the mapped curves
+  const FeatureGraph* features = nullptr;
+};
+
+}  // namespace hexwright::fitting
