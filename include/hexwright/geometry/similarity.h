@@ -1,0 +1,37 @@
+// A change of scale and position, so that stages can work at unit size whatever the model's units.
+#pragma once
+
+#include <cmath>
+
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+/// world = center + unit * 2^exponent. The scale is a power of two, so scaling loses nothing;
+/// only the shift rounds, to the last bit of the world coordinate.
+struct Similarity {
+  Vec3 center;
+  int exponent = 0;
+
+  /// Length in the world of one unit; zero or infinity when it leaves the range of doubles.
+  double scale() const { return std::ldexp(1.0, exponent); }
+  Vec3 to_unit(const Vec3& p) const { return scaled(p - center, -exponent); }
+  Vec3 to_world(const Vec3& p) const { return scaled(p, exponent) + center; }
+  double length_to_unit(double length) const { return std::ldexp(length, -exponent); }
+  double length_to_world(double length) const { return std::ldexp(length, exponent); }
+
+ private:
+  static Vec3 scaled(const Vec3& p, int e) {
+    return {std::ldexp(p.x, e), std::ldexp(p.y, e), std::ldexp(p.z, e)};
+  }
+};
+
+/// The similarity whose unit frame has the surface's box about the origin with its longest side in
+/// [1, 2). Safe for coordinates whose squares overflow or vanish. The identity for an empty
+/// surface or one without extent.
+Similarity compute_unit_frame(const TriMesh& surface);
+
+/// The surface with its positions mapped to the unit frame.
+TriMesh to_unit(const TriMesh& surface, const Similarity& frame);
+
+}  // namespace hexwright

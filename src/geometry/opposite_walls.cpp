@@ -1,0 +1,101 @@
+// Distances to facing walls, inside and outside, at points spread over the surface.
+#include <algorithm>
+#include <limits>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/geometry/shape_diameter.h"
+
+#include "geometry/ray_scene.h"
+
+namespace hexwright {
+namespace {
+
+constexpr int kNumRays = 13;
+constexpr double kHalfAngle = 36 * std::numbers::pi / 180;
+constexpr double kFacing = -0.8;  ///< cosine between normals of opposite walls, at most
+constexpr double kMaxSamples = 2e7;
+
+/// Centroids of the pieces of a triangle bisected across its longest side until no side is longer
+/// than twice the spacing (half a square of that size per piece at most, whatever the shape).
+void sample_triangle(const std::array<Vec3, 3>& c, double spacing, std::vector<Vec3>& out) {
+  int longest = 0;
+  double length_sq = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double d =
+        norm_sq(c[static_cast<std::size_t>((k + 1) % 3)] - c[static_cast<std::size_t>(k)]);
+    if (d <= length_sq) continue;
+    length_sq = d;
+    longest = k;
+  }
+  if (length_sq <= 4 * spacing * spacing) {
+    out.push_back((c[0] + c[1] + c[2]) / 3);
+    return;
+  }
+  const Vec3 a = c[static_cast<std::size_t>(longest)];
+  const Vec3 b = c[static_cast<std::size_t>((longest + 1) % 3)];
+  const Vec3 apex = c[static_cast<std::size_t>((longest + 2) % 3)];
+  const Vec3 middle = (a + b) * 0.5;
+  sample_triangle({a, middle, apex}, spacing, out);
+  sample_triangle({middle, b, apex}, spacing, out);
+}
+
+/// About how many samples the spacing asks for; needles count by their length.
+double estimate_samples(const TriMesh& unit, double spacing) {
+  double sum = 0;
+  for (TriId t : unit.tris.ids()) {
+    const auto c = unit.corners(t);
+    const double longest =
+        std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+    sum += 1 + norm(cross(c[1] - c[0], c[2] - c[0])) / (spacing * spacing) + longest / spacing;
+  }
+  return sum;
+}
+
+/// Least length x cosine over the rays that meet a wall facing back.
+double least_width(const RayScene& scene, const std::vector<ConeRay>& cone, const Vec3& from,
+                   TriId tri, const Vec3& axis) {
+  const AxisFrame frame(axis);
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConeRay& ray : cone) {
+    const auto hit = scene.first_wall(from, tri, frame.to_world(ray.direction));
+    if (hit && dot(scene.normal(hit->tri), scene.normal(tri)) < kFacing)
+      least = std::min(least, hit->length * ray.direction.z);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
+                                              const Context& context) {
+  const RayScene scene(surface);
+  const TriMesh& unit = scene.unit_surface();
+  const double unit_spacing = scene.frame().length_to_unit(spacing);
+  if (!(unit_spacing > 0))
+    throw Error(ErrorCode::BadArgument, "the sample spacing must be positive");
+  if (estimate_samples(unit, unit_spacing) > kMaxSamples)
+    throw Error(ErrorCode::OutOfResources,
+                "the sample spacing asks for more than 20 million samples; use a coarser one");
+  std::vector<Vec3> points;
+  std::vector<TriId> tris;
+  for (TriId t : unit.tris.ids()) {
+    if (scene.normal(t) == Vec3{}) continue;
+    sample_triangle(unit.corners(t), unit_spacing, points);
+    tris.resize(points.size(), t);
+  }
+  auto cone = spread_cone(kNumRays - 1, kHalfAngle);
+  cone.push_back({{0, 0, 1}, 0});  // straight across: between near side walls no other gets through
+  std::vector<WallSample> samples(points.size());
+  parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+    context.check_cancelled();
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& n = scene.normal(tris[i]);
+      samples[i] = {scene.frame().to_world(points[i]), tris[i],
+                    least_width(scene, cone, points[i], tris[i], -n),
+                    least_width(scene, cone, points[i], tris[i], n)};
+    }
+  });
+  return samples;
+}
+
+}  // namespace hexwright
