@@ -24,8 +24,7 @@ void write_curve(FitState& state, const FeatureCurve& curve, CurveId c, const Cu
     state.kind[v] = VertKind::Curve;
     state.curve[v] = c;
     state.arc[v] = path.arcs[i];
-    if (curve.is_closed)
-      state.arc[v] -= curve.length() * std::floor(path.arcs[i] / curve.length());
+    if (curve.is_closed) state.arc[v] -= curve.length() * std::floor(path.arcs[i] / curve.length());
   }
 }
 

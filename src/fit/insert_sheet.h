@@ -26,8 +26,9 @@ std::vector<VertId> sheet_verts(const std::vector<std::array<VertId, 4>>& quads)
 
 /// Moves copies of the sheet's vertices against their directions and adds the hexes between, in
 /// order of the quads. `takes_copy` says per hex of the mesh whether it is behind; empty: all are.
-/// Offsets shrink until every corner of the hexes touched has a scaled Jacobian above `min_jacobian`.
-/// Returns the copies, one per sheet vertex; or empty, with the mesh unchanged, when that fails.
+/// Offsets shrink until every corner of the hexes touched has a scaled Jacobian above
+/// `min_jacobian`. Returns the copies, one per sheet vertex; or empty, with the mesh unchanged,
+/// when that fails.
 std::vector<VertId> insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
                                  std::span<const char> takes_copy, double min_jacobian);
 

@@ -10,7 +10,14 @@ namespace {
 
 /// Faces at each local vertex.
 constexpr std::array<std::array<int, 3>, 8> kFacesOfVertex = {{
-    {0, 2, 4}, {1, 2, 4}, {1, 3, 4}, {0, 3, 4}, {0, 2, 5}, {1, 2, 5}, {1, 3, 5}, {0, 3, 5},
+    {0, 2, 4},
+    {1, 2, 4},
+    {1, 3, 4},
+    {0, 3, 4},
+    {0, 2, 5},
+    {1, 2, 5},
+    {1, 3, 5},
+    {0, 3, 5},
 }};
 
 class UnionFind {
@@ -34,8 +41,8 @@ Vec3 corner_normal(const HexMesh& mesh, HexFace face, VertId v) {
   std::size_t k = 0;
   while (quad[k] != v) ++k;
   const Vec3& o = mesh.positions[v];
-  return normalized(cross(mesh.positions[quad[(k + 1) % 4]] - o,
-                          mesh.positions[quad[(k + 3) % 4]] - o));
+  return normalized(
+      cross(mesh.positions[quad[(k + 1) % 4]] - o, mesh.positions[quad[(k + 3) % 4]] - o));
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 
 #include <span>
 
-#include "fit/visible_direction.h"
 #include "hexwright/mesh/hex_adjacency.h"
+
+#include "fit/visible_direction.h"
 
 namespace hexwright::fitting {
 

@@ -33,7 +33,7 @@ VisibleDirection find_visible_direction(std::span<const Vec3> normals) {
   best.direction = norm(sum) < 1e-9 ? normals[0] : normalized(sum);
   best.cosine = least_cosine(normals, best.direction);
   if (best.cosine >= kGoodEnough) return best;
-  Vec3 z = best.direction * std::max(0.05, best.cosine);
+  Vec3 z = sum / static_cast<double>(normals.size());  // in the hull, as every later point
   for (int step = 0; step < kMaxSteps; ++step) {
     const Vec3 toward = normals[most_opposed(normals, z)] - z;
     const double length_sq = norm_sq(toward);
@@ -41,7 +41,7 @@ VisibleDirection find_visible_direction(std::span<const Vec3> normals) {
     const double t = std::clamp(-dot(z, toward) / length_sq, 0.0, 1.0);
     if (t < 1e-6) break;
     z += toward * t;
-    if (norm(z) < 1e-4) break;
+    if (norm(z) < 1e-4) break;  // the hull holds the origin
     const Vec3 d = normalized(z);
     const double cosine = least_cosine(normals, d);
     if (cosine > best.cosine) best = {d, cosine};

@@ -3,9 +3,10 @@
 
 #include <random>
 
+#include "hexwright/mesh/hex_adjacency.h"
+
 #include "boundary_fixtures.h"
 #include "fit/set_check.h"
-#include "hexwright/mesh/hex_adjacency.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -37,7 +38,8 @@ SetSheet sheet_around(const HexMesh& mesh, const std::vector<char>& is_in, bool 
   for (HexId h : mesh.hexes.ids())
     for (int lf = 0; lf < 6; ++lf) {
       const HexId other = neighbors.neighbor[h][std::size_t(lf)];
-      const bool is_face = is_in[h.index()] && (other.is_valid() ? !is_in[other.index()] : with_boundary);
+      const bool is_face =
+          is_in[h.index()] && (other.is_valid() ? !is_in[other.index()] : with_boundary);
       if (!is_face) continue;
       result.sheet.quads.push_back(face_verts(mesh, {h, lf}));
       result.sheet.behind.push_back(h);
@@ -151,7 +153,9 @@ TEST(VisibleDirection, IsTheBestOneOnRandomNormals) {
       for (const Vec3& n : normals) least = std::min(least, dot(n, d));
       sampled = std::max(sampled, least);
     }
-    if (sampled > 0.05) EXPECT_GT(best.cosine, sampled - 0.03);
+    if (sampled > 0.05) {
+      EXPECT_GT(best.cosine, sampled - 0.03);
+    }
   }
 }
 
