@@ -1,5 +1,4 @@
-// Builds output of text and binary parts fast; numbers are written with as many digits as reading
-// them back needs.
+// Builds text output fast; numbers are written with as many digits as reading them back needs.
 #pragma once
 
 #include <charconv>
@@ -7,8 +6,6 @@
 #include <string_view>
 
 #include "hexwright/base/vec3.h"
-
-#include "io/byte_reader.h"
 
 namespace hexwright::io {
 
@@ -33,11 +30,6 @@ class TextWriter {
       is_first = false;
       integer(id.value() + base);
     }
-    return *this;
-  }
-  template <class Number>
-  TextWriter& binary(Number value, ByteOrder order) {
-    store(out_, value, order);
     return *this;
   }
   std::string take() { return std::move(out_); }

@@ -1,4 +1,7 @@
 // The main job: surface in, verified all-hex mesh out.
+//
+// Based on: Pitzalis et al. 2021 (grid, pairing, dual); docs/algorithms/sizing.md (the loop that
+// refines where the fit missed).
 #pragma once
 
 #include <map>
@@ -20,30 +23,68 @@ struct MeshOptions {
   CompleteOptions complete;
   DualOptions dual;  ///< mode follows complete.pairing
   FitOptions fit;
-  JudgeOptions judge;
+  JudgeOptions judge;  ///< the features' angles follow fit.features
+
   int max_rounds = 6;                 ///< refine where the fit missed; 0 = a single pass
-  std::size_t max_hexes = 2'000'000;  ///< budget of the background mesh
+  double refine_threshold = 0.85;     ///< leaves farther off than this share of the tolerance split
+  double min_quality = 0.2;           ///< least scaled Jacobian the loop is content with
+  std::size_t max_hexes = 2'000'000;  ///< budget of one background mesh
+  /// Budget of the loop: no further round once the background meshes of all rounds together would
+  /// exceed it. Counts, not seconds, so that results do not depend on the machine.
+  std::size_t max_loop_hexes = 1'000'000;
 };
 
-/// Seconds and counts of one stage of the best round.
+/// Sets the options of a single pass: a stricter a-priori criterion instead of the loop.
+void use_single_pass(MeshOptions& options);
+
+/// Seconds and counts of one stage.
 struct StageRecord {
   std::string name;
   double seconds = 0;
   std::map<std::string, double> counts;
 };
 
+/// What one round of the loop reached.
+struct RoundRecord {
+  std::size_t num_cells = 0;                   ///< of the completed grid
+  std::size_t num_background = 0;              ///< hexes before carving
+  std::size_t num_hexes = 0;                   ///< of the result
+  double max_distance = 0, mean_distance = 0;  ///< two-way, shares of the diagonal
+  double min_scaled_jacobian = 0, avg_scaled_jacobian = 0;
+  std::size_t num_components = 0;
+  long genus = 0;
+  std::size_t num_marked = 0;  ///< leaves split for the next round
+  double seconds = 0;
+};
+
 struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
   SurfaceDiagnosis surface;
-  Grid grid;  ///< the completed grid of the best round
+  Grid grid;            ///< the completed grid of the best round
+  SizingResult sizing;  ///< the a-priori grid
+  CompleteReport complete;
+  DualReport dual;
   FitReport fit;
-  std::vector<StageRecord> stages;
-  int num_rounds = 0, best_round = 0;
+  std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
+  std::vector<RoundRecord> rounds;
+  int num_rounds = 0;  ///< refinements after the first fit
+  int best_round = 0;
+  double seconds = 0;  ///< wall clock of everything
   std::vector<std::string> warnings;
   std::vector<std::string> failures;  ///< why the mesh misses the gate; empty = done and valid
 };
 
+/// Feature options for sizing and judging a surface with this diagonal: dangling crease chains and
+/// loops shorter than 3% of it do not count (the fit prunes by its own mesh size).
+FeatureOptions features_for_sizing(const FeatureOptions& options, double diagonal);
+
+/// The gate: topology valid, nothing inverted, the surface's number of components, and a two-way
+/// distance of at most twice the tolerance (of Deviation sizing; the paper's has no such goal).
+/// What else falls short of the options is a warning.
+///
+/// Works in normalised coordinates, so that tiny, huge and far models are all alike; the result is
+/// in the input's. Same result for any thread count.
 /// Errors: those of prepare_surface; OutOfResources when the budgets leave no mesh.
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& context);
 

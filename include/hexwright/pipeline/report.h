@@ -1,0 +1,30 @@
+// The report of a run as JSON: what `hexwright mesh --report FILE` writes.
+#pragma once
+
+#include <string>
+
+#include "hexwright/pipeline/mesh_surface.h"
+
+namespace hexwright {
+
+/// What the caller knows and the result does not.
+struct RunInfo {
+  std::string input, output;  ///< paths as given
+  int num_threads = 0;
+};
+
+/// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
+/// versions, warnings and failures. Keys are documented in docs/cli.md.
+std::string report_to_json(const MeshResult& result, const MeshOptions& options,
+                           const RunInfo& run);
+
+/// The parts of the report that the single stages write.
+std::string sizing_to_json(const SizingResult& sizing);
+std::string complete_to_json(const CompleteReport& complete);
+std::string dual_to_json(const DualReport& dual);
+std::string fit_to_json(const FitReport& fit);
+
+/// Peak resident memory of this process in bytes; 0 where the system does not tell.
+std::size_t peak_memory_bytes();
+
+}  // namespace hexwright

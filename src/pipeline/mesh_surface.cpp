@@ -1,0 +1,203 @@
+// The stages in order, and the loop that refines the grid where the fit missed the surface.
+#include "hexwright/pipeline/mesh_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+#include "hexwright/geometry/similarity.h"
+
+#include "pipeline/round.h"
+#include "pipeline/stage_log.h"
+
+namespace hexwright {
+namespace {
+
+/// Options that follow from others, for a surface in unit coordinates.
+MeshOptions resolve_options(MeshOptions options, double diagonal) {
+  options.judge.features = features_for_sizing(options.fit.features, diagonal);
+  const double threshold = options.refine_threshold * options.sizing.tolerance;
+  options.judge.distance.hot_threshold = threshold;
+  options.judge.distance.spacing = std::min(options.judge.distance.spacing, 1.5 * threshold);
+  return options;
+}
+
+void record_sizing(const SizingResult& sizing, StageRecord& stage) {
+  stage.counts["cells"] = static_cast<double>(sizing.grid.num_cells());
+  stage.counts["deepest level"] = sizing.reached_level;
+  for (std::size_t r = 0; r < sizing.splits_by_reason.size(); ++r)
+    stage.counts[std::string("splits: ") + kSplitReasons[r]] =
+        static_cast<double>(sizing.splits_by_reason[r]);
+}
+
+/// Completes the a-priori grid; when the result breaks the budget, builds the grid again one level
+/// less deep.
+CompleteResult complete_within_budget(const RoundInput& input, const FeatureGraph& features,
+                                      MeshResult& result) {
+  SizingOptions sizing = input.options.sizing;
+  while (true) {
+    result.sizing = run_stage(result.stages, "sizing", input.context, [&] {
+      return build_grid(input.tree.surface(), features, sizing, input.context);
+    });
+    record_sizing(result.sizing, result.stages.back());
+    CompleteResult completed = run_stage(result.stages, "complete", input.context, [&] {
+      return complete(result.sizing.grid, input.options.complete, input.context);
+    });
+    result.stages.back().counts["cells"] = static_cast<double>(completed.grid.num_cells());
+    if (completed.grid.num_cells() <= input.options.max_hexes) return completed;
+    if (result.sizing.reached_level <= sizing.min_level)
+      throw Error(ErrorCode::OutOfResources,
+                  fmt::format("the grid needs {} cells, more than the budget of {}, already at "
+                              "level {}; raise the budget or lower the minimum level",
+                              completed.grid.num_cells(), input.options.max_hexes,
+                              result.sizing.reached_level));
+    sizing.max_level = result.sizing.reached_level - 1;
+    result.warnings.push_back(fmt::format(
+        "the grid would have {} cells, more than the budget of {}: its levels end at {} instead "
+        "of {}",
+        completed.grid.num_cells(), input.options.max_hexes, sizing.max_level,
+        result.sizing.reached_level));
+  }
+}
+
+/// Fits, measures, splits leaves that hold a miss, and repeats while that is called for and
+/// affordable. Returns the best round.
+Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
+  const MeshOptions& options = input.options;
+  Round current = run_round(input, std::move(completed));
+  std::size_t total_hexes = current.record.num_background;
+  Round best = current;
+  while (true) {
+    result.rounds.push_back(current.record);
+    if (result.num_rounds >= options.max_rounds || is_content(input, current)) break;
+    const std::vector<char> marks = mark_misses(input, current);
+    const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+    result.rounds.back().num_marked = num_marked;
+    if (num_marked == 0) break;
+    CompleteResult next =
+        complete(split_cells(current.grid, marks), options.complete, input.context);
+    const std::size_t num_cells = next.grid.num_cells();
+    if (num_cells > options.max_hexes || total_hexes + num_cells > options.max_loop_hexes) {
+      result.warnings.push_back(fmt::format(
+          "refinement stops after round {}: the next grid has {} cells, beyond the budget of {} "
+          "per round or {} over all rounds",
+          result.num_rounds, num_cells, options.max_hexes, options.max_loop_hexes));
+      break;
+    }
+    current = run_round(input, std::move(next));
+    total_hexes += current.record.num_background;
+    ++result.num_rounds;
+    if (is_better(input, current, best)) {
+      best = current;
+      result.best_round = result.num_rounds;
+    }
+  }
+  return best;
+}
+
+GridFrame to_world(const Similarity& frame, const GridFrame& grid) {
+  return {frame.to_world(grid.origin), frame.length_to_world(grid.root_size)};
+}
+
+void map_to_world(const Similarity& frame, MeshResult& result) {
+  const double s = frame.scale();
+  auto& positions = result.mesh.positions.raw();
+  parallel_for(positions.size(),
+               [&](std::size_t i) { positions[i] = frame.to_world(positions[i]); });
+  result.grid.frame = to_world(frame, result.grid.frame);
+  result.sizing.grid.frame = to_world(frame, result.sizing.grid.frame);
+  Verdict& v = result.verdict;
+  v.quality.total_volume *= s * s * s;
+  if (v.features) v.features->total_length *= s;
+  if (v.distance) {
+    v.distance->worst_on_surface = frame.to_world(v.distance->worst_on_surface);
+    v.distance->worst_on_mesh = frame.to_world(v.distance->worst_on_mesh);
+    for (Vec3& p : v.distance->hot) p = frame.to_world(p);
+  }
+  FitReport& f = result.fit;
+  f.curve_length *= s;
+  f.curve_length_mapped *= s;
+  for (CurveOutcome& c : f.curves) c.max_residual *= s;
+  for (Vec3& p : f.carve.lost) p = frame.to_world(p);
+  for (Miss& m : f.misses) {
+    m.position = frame.to_world(m.position);
+    m.distance *= s;
+  }
+}
+
+/// Rounding to the input's coordinates can undo validity when the model is far from the origin.
+void check_after_mapping(MeshResult& result) {
+  const std::size_t num_inverted = summarize_quality(result.mesh).num_inverted;
+  if (result.verdict.quality.num_inverted == 0 && num_inverted > 0)
+    result.failures.push_back(fmt::format(
+        "{} hexes are inverted only by rounding to the input's coordinates, which are too far "
+        "from the origin for the model's size; move the model nearer to the origin",
+        num_inverted));
+}
+
+void take_round(Round&& round, MeshResult& result) {
+  result.mesh = std::move(round.fit.mesh);
+  result.fit = std::move(round.fit.report);
+  result.grid = std::move(round.grid);
+  result.verdict = std::move(round.verdict);
+  result.complete = std::move(round.complete);
+  result.dual = round.dual;
+  for (StageRecord& stage : round.stages) result.stages.push_back(std::move(stage));
+}
+
+}  // namespace
+
+void use_single_pass(MeshOptions& options) {
+  options.max_rounds = 0;
+  options.sizing.deviation_factor = 1;
+  options.sizing.crease_proximity = 0.75;
+}
+
+FeatureOptions features_for_sizing(const FeatureOptions& options, double diagonal) {
+  constexpr double kPruning = 0.03;
+  FeatureOptions result = options;
+  result.min_length = kPruning * diagonal;
+  return result;
+}
+
+MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const Context& context) {
+  const Stopwatch clock;
+  MeshResult result;
+
+  // Clean and orient, then normalise position and scale.
+  PreparedSurface prepared = run_stage(result.stages, "prepare", context,
+                                       [&] { return prepare_surface(surface, context); });
+  result.surface = std::move(prepared.diagnosis);
+  result.warnings = result.surface.warnings;
+  result.stages.back().counts["triangles"] = static_cast<double>(prepared.mesh.num_tris());
+  const Similarity frame = compute_unit_frame(prepared.mesh);
+  prepared.mesh = to_unit(prepared.mesh, frame);
+
+  // What the surface is like.
+  const MeshOptions options = resolve_options(given, bounding_box(prepared.mesh).diagonal());
+  const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
+    return extract_features(prepared.mesh, options.judge.features);
+  });
+  result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());
+  result.stages.back().counts["corners"] = static_cast<double>(features.corners.size());
+  const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
+                                     [&] { return SurfaceTree(std::move(prepared.mesh)); });
+  const ExpectedTopology expected = find_expected_topology(tree);
+
+  // Grid, hexes, fit; again where the fit missed.
+  const RoundInput input{tree, options, expected, context};
+  CompleteResult completed = complete_within_budget(input, features, result);
+  take_round(refine_where_missed(input, std::move(completed), result), result);
+
+  apply_gate(input, result);
+  map_to_world(frame, result);
+  check_after_mapping(result);
+  result.seconds = clock.seconds();
+  return result;
+}
+
+}  // namespace hexwright

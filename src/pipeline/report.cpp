@@ -1,0 +1,171 @@
+// Writes a run's report as JSON.
+#include "hexwright/pipeline/report.h"
+
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "hexwright/quality/verdict_json.h"
+#include "hexwright/version.h"
+
+namespace hexwright {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
+constexpr const char* kSideNames[] = {"inside", "outside", "both"};
+
+std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+Json describe_options(const MeshOptions& o) {
+  return {{"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
+          {"tolerance", o.sizing.tolerance},
+          {"deviation_factor", o.sizing.deviation_factor},
+          {"wall_factor", o.sizing.wall_factor},
+          {"crease_proximity", o.sizing.crease_proximity},
+          {"margin", o.sizing.margin},
+          {"min_level", o.sizing.min_level},
+          {"max_level", o.sizing.max_level},
+          {"max_cells", o.sizing.max_cells},
+          {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
+          {"balance", o.complete.balance == Balance::Strong ? "strong" : "weak"},
+          {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
+          {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
+          {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
+          {"max_rounds", o.max_rounds},
+          {"max_hexes", o.max_hexes},
+          {"max_loop_hexes", o.max_loop_hexes}};
+}
+
+Json describe_surface(const SurfaceDiagnosis& s) {
+  return {{"is_closed", s.is_closed},
+          {"welded_vertices", s.num_welded_verts},
+          {"degenerate_triangles", s.num_degenerate_tris},
+          {"duplicate_triangles", s.num_duplicate_tris},
+          {"boundary_edges", s.num_boundary_edges},
+          {"nonmanifold_edges", s.num_nonmanifold_edges},
+          {"flipped_triangles", s.num_flipped_tris},
+          {"was_inside_out", s.is_flipped_whole}};
+}
+
+Json describe_sizing(const SizingResult& s) {
+  Json sizing = {{"cells", s.grid.num_cells()},
+                 {"cells_per_level", count_cells_per_level(s.grid)},
+                 {"hit_cell_budget", s.hit_cell_budget}};
+  for (std::size_t k = 0; k < s.splits_by_reason.size(); ++k)
+    sizing["splits_by_reason"][kSplitReasons[k]] = s.splits_by_reason[k];
+  return sizing;
+}
+
+Json describe_complete(const CompleteReport& c) {
+  return {{"input_cells", c.num_input_cells},
+          {"cells", c.num_output_cells},
+          {"splits_per_depth_input", c.num_split_input},
+          {"splits_per_depth", c.num_split_output},
+          {"clusters", c.num_clusters},
+          {"largest_group", c.largest_group},
+          {"is_optimal_per_depth", c.is_optimal_per_depth},
+          {"gap", c.gap}};
+}
+
+Json describe_dual(const DualReport& d) {
+  return {{"hexes", d.num_hexes},
+          {"cap_hexes", d.num_cap_hexes},
+          {"inverted_raw", d.num_inverted_raw},
+          {"min_scaled_jacobian_raw", d.min_scaled_jacobian_raw},
+          {"min_scaled_jacobian", d.min_scaled_jacobian},
+          {"avg_scaled_jacobian", d.avg_scaled_jacobian}};
+}
+
+Json describe_fit(const FitReport& f) {
+  Json fit = {{"hexes_carved", f.num_hexes_carved},
+              {"hexes_padded", f.num_hexes_padded},
+              {"flips", f.carve.num_flips},
+              {"curves", f.num_curves},
+              {"curves_mapped", f.num_curves_mapped},
+              {"curve_length", f.curve_length},
+              {"curve_length_mapped", f.curve_length_mapped},
+              {"corners", f.num_corners},
+              {"corners_mapped", f.num_corners_mapped},
+              {"dropped_curves", Json::array()},
+              {"worst_misses", Json::array()},
+              {"seconds", Json::object()}};
+  for (const CurveOutcome& c : f.curves)
+    if (!c.is_mapped)
+      fit["dropped_curves"].push_back({{"curve", c.curve.value()}, {"reason", c.reason}});
+  constexpr std::size_t kMaxMisses = 20;
+  for (std::size_t k = 0; k < std::min(kMaxMisses, f.misses.size()); ++k) {
+    const Miss& m = f.misses[k];
+    fit["worst_misses"].push_back(
+        {{"position", {m.position.x, m.position.y, m.position.z}}, {"distance", m.distance}});
+  }
+  for (const auto& [pass, seconds] : f.seconds) fit["seconds"][pass] = seconds;
+  return fit;
+}
+
+Json describe_stages(const MeshResult& r) {
+  Json stages = Json::array();
+  for (const StageRecord& s : r.stages)
+    stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"counts", s.counts}});
+  return stages;
+}
+
+Json describe_rounds(const MeshResult& r) {
+  Json rounds = Json::array();
+  for (const RoundRecord& q : r.rounds)
+    rounds.push_back({{"cells", q.num_cells},
+                      {"background_hexes", q.num_background},
+                      {"hexes", q.num_hexes},
+                      {"max_distance", q.max_distance},
+                      {"mean_distance", q.mean_distance},
+                      {"min_scaled_jacobian", q.min_scaled_jacobian},
+                      {"avg_scaled_jacobian", q.avg_scaled_jacobian},
+                      {"components", q.num_components},
+                      {"genus", q.genus},
+                      {"marked_cells", q.num_marked},
+                      {"seconds", q.seconds}});
+  return rounds;
+}
+
+}  // namespace
+
+std::string report_to_json(const MeshResult& result, const MeshOptions& options,
+                           const RunInfo& run) {
+  Json report = {{"program", "hexwright"},
+                 {"version", HEXWRIGHT_VERSION},
+                 {"compiler", __VERSION__},
+                 {"input", run.input},
+                 {"output", run.output},
+                 {"threads", run.num_threads},
+                 {"is_valid", result.failures.empty()},
+                 {"failures", result.failures},
+                 {"warnings", result.warnings},
+                 {"hexes", result.mesh.num_hexes()},
+                 {"vertices", result.mesh.num_verts()},
+                 {"seconds", result.seconds},
+                 {"peak_memory_bytes", peak_memory_bytes()},
+                 {"best_round", result.best_round},
+                 {"rounds", describe_rounds(result)},
+                 {"stages", describe_stages(result)},
+                 {"surface", describe_surface(result.surface)},
+                 {"sizing", describe_sizing(result.sizing)},
+                 {"complete", describe_complete(result.complete)},
+                 {"cells_per_level", count_cells_per_level(result.grid)},
+                 {"dual", describe_dual(result.dual)},
+                 {"fit", describe_fit(result.fit)},
+                 {"verdict", Json::parse(verdict_to_json(result.verdict))},
+                 {"options", describe_options(options)}};
+  return to_text(report);
+}
+
+std::string sizing_to_json(const SizingResult& sizing) { return to_text(describe_sizing(sizing)); }
+std::string complete_to_json(const CompleteReport& complete) {
+  return to_text(describe_complete(complete));
+}
+std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
+std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+
+}  // namespace hexwright

@@ -1,0 +1,110 @@
+// Runs one round and prepares the next.
+#include "pipeline/round.h"
+
+#include <algorithm>
+#include <array>
+
+#include "pipeline/stage_log.h"
+
+namespace hexwright {
+namespace {
+
+DualMode dual_mode_of(Pairing pairing) {
+  return pairing == Pairing::Blocks || pairing == Pairing::Octree ? DualMode::Blocks
+                                                                  : DualMode::Sheets;
+}
+
+void count(StageRecord& stage, const std::string& name, std::size_t value) {
+  stage.counts[name] = static_cast<double>(value);
+}
+
+RoundRecord make_record(const Round& round, double seconds) {
+  RoundRecord record;
+  record.num_cells = round.grid.num_cells();
+  record.num_background = round.dual.num_hexes;
+  record.num_hexes = round.fit.mesh.num_hexes();
+  if (round.verdict.distance) {
+    record.max_distance = round.verdict.distance->max_two_way();
+    record.mean_distance = round.verdict.distance->mean_two_way();
+  }
+  record.min_scaled_jacobian = round.verdict.quality.min_scaled_jacobian;
+  record.avg_scaled_jacobian = round.verdict.quality.avg_scaled_jacobian;
+  record.num_components = round.verdict.topology.num_components;
+  record.genus = round.verdict.topology.genus();
+  record.seconds = seconds;
+  return record;
+}
+
+bool has_expected_topology(const RoundInput& input, const Round& round) {
+  if (!input.expected.is_known || input.options.fit.carve.side != Side::Inside) return true;
+  const TopologyReport& t = round.verdict.topology;
+  return t.num_boundary_components == input.expected.num_components &&
+         t.boundary_euler_characteristic == input.expected.euler_characteristic;
+}
+
+double max_distance(const Round& round) {
+  return round.verdict.distance ? round.verdict.distance->max_two_way() : 1;
+}
+
+}  // namespace
+
+Round run_round(const RoundInput& input, CompleteResult completed) {
+  const Stopwatch clock;
+  const MeshOptions& options = input.options;
+  Round round;
+  round.grid = std::move(completed.grid);
+  round.complete = std::move(completed.report);
+
+  DualOptions dual_options = options.dual;
+  dual_options.mode = dual_mode_of(options.complete.pairing);
+  DualResult dual = run_stage(round.stages, "dual", input.context,
+                              [&] { return build_dual(round.grid, dual_options, input.context); });
+  round.dual = dual.report;
+  round.dual.num_hexes = dual.mesh.num_hexes();
+  count(round.stages.back(), "hexes", dual.mesh.num_hexes());
+  count(round.stages.back(), "vertices", dual.mesh.num_verts());
+
+  round.fit = run_stage(round.stages, "fit", input.context,
+                        [&] { return fit(dual.mesh, input.tree, options.fit, input.context); });
+  count(round.stages.back(), "hexes", round.fit.mesh.num_hexes());
+  count(round.stages.back(), "carved", round.fit.report.num_hexes_carved);
+  count(round.stages.back(), "padded", round.fit.report.num_hexes_padded);
+
+  if (round.fit.mesh.num_hexes() > 0)
+    round.verdict = run_stage(round.stages, "judge", input.context, [&] {
+      return judge(round.fit.mesh, input.tree, options.judge, input.context);
+    });
+  else
+    round.verdict.failures.push_back(
+        "nothing of the object was kept: its parts are thinner than the grid's cells");
+  round.record = make_record(round, clock.seconds());
+  return round;
+}
+
+bool is_content(const RoundInput& input, const Round& round) {
+  return round.verdict.is_valid() && has_expected_topology(input, round) &&
+         max_distance(round) <= input.options.sizing.tolerance &&
+         round.verdict.quality.min_scaled_jacobian >= input.options.min_quality;
+}
+
+bool is_better(const RoundInput& input, const Round& a, const Round& b) {
+  const auto rank = [&](const Round& r) {
+    return std::array<bool, 4>{r.verdict.is_valid(), has_expected_topology(input, r),
+                               max_distance(r) <= input.options.sizing.tolerance,
+                               r.verdict.quality.min_scaled_jacobian >= input.options.min_quality};
+  };
+  if (rank(a) != rank(b)) return rank(a) > rank(b);
+  if (max_distance(a) <= input.options.sizing.tolerance)
+    return a.fit.mesh.num_hexes() < b.fit.mesh.num_hexes();
+  return max_distance(a) < max_distance(b);
+}
+
+std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
+  std::vector<Vec3> points;
+  if (round.verdict.distance) points = round.verdict.distance->hot;
+  const auto& lost = round.fit.report.carve.lost;
+  points.insert(points.end(), lost.begin(), lost.end());
+  return mark_cells_with_points(round.grid, points, input.options.sizing.max_level);
+}
+
+}  // namespace hexwright
