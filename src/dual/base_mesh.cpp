@@ -1,12 +1,11 @@
 #include "dual/base_mesh.h"
 
-#include "hexwright/base/error.h"
-
 namespace hexwright::dual {
 
-void build_base_mesh(const Domain& domain, HexComplex& complex) {
-  if (domain.is_box()) return build_box_base(domain, complex);
-  throw Error(ErrorCode::BadGeometry, "domains other than boxes are not handled yet");
+BaseStatus build_base_mesh(const Domain& domain, HexComplex& complex) {
+  if (!domain.is_box()) return build_general_base(domain, complex);
+  build_box_base(domain, complex);
+  return BaseStatus::Ok;
 }
 
 }  // namespace hexwright::dual

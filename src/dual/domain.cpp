@@ -4,7 +4,7 @@
 
 namespace hexwright::dual {
 
-Domain::Domain(const Grid& grid) : finest_level_(grid.finest_level) {
+Domain::Domain(const Grid& grid) : root_list_(grid.roots), finest_level_(grid.finest_level) {
   if (grid.roots.empty()) return;
   low_ = high_ = grid.roots.front();
   for (const LatticeCoord& root : grid.roots) {
@@ -19,6 +19,12 @@ Domain::Domain(const Grid& grid) : finest_level_(grid.finest_level) {
   is_box_ = volume == grid.roots.size();
 }
 
+std::size_t Domain::cell_index(const LatticeCoord& root) const {
+  const auto group = static_cast<std::size_t>(roots_.find_group(parent_of(root)));
+  return 8 * group +
+         static_cast<std::size_t>((root[0] & 1) | (root[1] & 1) << 1 | (root[2] & 1) << 2);
+}
+
 int Domain::octants_at(const LatticeCoord& point) const {
   int octants = 0;
   for (int q = 0; q < 8; ++q) {
@@ -27,6 +33,14 @@ int Domain::octants_at(const LatticeCoord& point) const {
     if (contains_root(root)) octants |= 1 << q;
   }
   return octants;
+}
+
+bool Domain::is_corner_or_crease(const LatticeCoord& point) const {
+  const int octants = octants_at(point);
+  if (octants == 0 || octants == 0xFF) return false;
+  for (const auto& sides : kSideMask)
+    if (octants == sides[0] || octants == sides[1]) return false;
+  return true;
 }
 
 }  // namespace hexwright::dual

@@ -18,6 +18,14 @@ class Domain {
   /// finest lattice.
   int octants_at(const LatticeCoord& point) const;
 
+  /// Is the point on the domain's boundary, at a place where that is not flat?
+  bool is_corner_or_crease(const LatticeCoord& point) const;
+
+  /// The roots in the grid's order, and a distinct index below num_cell_indices() for each.
+  const std::vector<LatticeCoord>& roots() const { return root_list_; }
+  std::size_t cell_index(const LatticeCoord& root) const;
+  std::size_t num_cell_indices() const { return 8 * roots_.num_groups(); }
+
   bool is_box() const { return is_box_; }
   const LatticeCoord& low() const { return low_; }    ///< lowest root
   const LatticeCoord& high() const { return high_; }  ///< one past the highest root
@@ -25,6 +33,7 @@ class Domain {
 
  private:
   SplitNodes roots_;
+  std::vector<LatticeCoord> root_list_;
   int finest_level_ = 0;
   bool is_box_ = false;
   LatticeCoord low_ = {0, 0, 0}, high_ = {0, 0, 0};

@@ -1,6 +1,8 @@
 // Driver of the dual stage: core planes, base mesh, pillows, positions.
 #include "hexwright/dual/dual_mesh.h"
 
+#include "hexwright/base/parallel.h"
+
 #include "dual/base_mesh.h"
 #include "dual/core_planes.h"
 #include "dual/pillow_stack.h"
@@ -25,16 +27,59 @@ void choose_all_core_planes(std::vector<SplitNodes>& split, const Domain& domain
   }
 }
 
-HexComplex build_complex(const Grid& grid, const DualOptions& options, const Context& context) {
-  if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
+// The same cells over roots of half the edge; root cubes that are leaves are split.
+Grid split_roots(const Grid& grid) {
+  std::vector<char> is_root_leaf(grid.num_cells());
+  for (CellId c : grid.cells.ids()) is_root_leaf[c.index()] = grid.cells[c].level == 0;
+  const Grid split = split_cells(grid, is_root_leaf);
+  std::vector<LatticeCoord> roots;
+  for (const LatticeCoord& r : split.roots)
+    for (int q = 0; q < 8; ++q)
+      roots.push_back({2 * r[0] + (q & 1), 2 * r[1] + (q >> 1 & 1), 2 * r[2] + (q >> 2)});
+  std::vector<CellSpec> cells;
+  for (CellId c : split.cells.ids()) {
+    CellSpec cell{split.cells[c].level - 1, split.cells[c].corner};
+    for (auto& x : cell.index) x /= split.cell_size(c);
+    cells.push_back(cell);
+  }
+  return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
+}
+
+BaseStatus build_complex(const Grid& grid, const DualOptions& options, const Context& context,
+                         HexComplex& complex) {
   const Domain domain(grid);
   auto split = collect_split_nodes(grid);
   choose_all_core_planes(split, domain, options.mode);
-  HexComplex complex;
+  complex = {};
   complex.reserve(2 * grid.num_cells());
-  build_base_mesh(domain, complex);
-  PillowStack(complex, domain, split).run(context);
+  const BaseStatus status = build_base_mesh(domain, complex);
+  if (status == BaseStatus::Ok) PillowStack(complex, domain, split).run(context);
+  return status;
+}
+
+// Domains one root thick are meshed on the lattice of half their roots.
+HexComplex build_complex_of_any(const Grid& grid, const DualOptions& options,
+                                const Context& context, Grid& used_grid) {
+  if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
+  HexComplex complex;
+  used_grid = grid;
+  if (build_complex(grid, options, context, complex) == BaseStatus::Ok) return complex;
+  used_grid = split_roots(grid);
+  if (build_complex(used_grid, options, context, complex) == BaseStatus::TooThin)
+    throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");
   return complex;
+}
+
+// Half cells at the border have a face on it.
+void drop_border_hexes(const HexComplex& complex, HexMesh& mesh) {
+  IdVector<HexId, std::array<VertId, 8>> kept;
+  for (HexId h : mesh.hexes.ids()) {
+    bool is_border = false;
+    for (const FaceLink& link : complex.links[h]) is_border |= link.is_plane();
+    if (!is_border) kept.push_back(mesh.hexes[h]);
+  }
+  mesh.hexes = std::move(kept);
+  remove_unused_verts(mesh);
 }
 
 void measure_raw(const HexMesh& mesh, DualReport& report) {
@@ -44,20 +89,31 @@ void measure_raw(const HexMesh& mesh, DualReport& report) {
   report.avg_scaled_jacobian = quality.avg;
 }
 
+void to_world(const Grid& grid, HexMesh& mesh) {
+  const double unit = grid.frame.root_size / static_cast<double>(1 << grid.finest_level);
+  parallel_for(mesh.num_verts(), [&](std::size_t v) {
+    Vec3& p = mesh.positions[VertId(v)];
+    p = grid.frame.origin + p * unit;
+  });
+}
+
 }  // namespace
 
 DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context) {
-  HexComplex complex = build_complex(grid, options, context);
+  Grid used_grid;
+  HexComplex complex = build_complex_of_any(grid, options, context, used_grid);
   DualResult result;
   HexMesh& mesh = result.mesh;
   for (const HexPlace& place : complex.places) result.report.num_cap_hexes += !place.is_lattice();
-  result.report.num_hexes = complex.num_hexes();
-  mesh.positions = compute_positions(complex);
+  mesh.positions.resize(static_cast<std::size_t>(complex.num_verts));
   mesh.hexes = std::move(complex.verts);
+  const VertToHex vert_to_hex(mesh);
+  place_verts(complex, vert_to_hex, mesh);
 
+  if (options.inset) drop_border_hexes(complex, mesh);
   measure_raw(mesh, result.report);
-  const double unit = grid.frame.root_size / static_cast<double>(1 << grid.finest_level);
-  for (Vec3& p : mesh.positions) p = grid.frame.origin + p * unit;
+  to_world(used_grid, mesh);
+  result.report.num_hexes = mesh.num_hexes();
   return result;
 }
 

@@ -29,12 +29,13 @@ void PillowStack::activate_depth(int depth) {
   std::vector<ActiveHex> active;
   for (const ActiveHex& h : active_) {
     const std::int32_t g = group_around(complex_.places[h.hex].point());
-    if (g >= 0)
-      active.push_back(
-          {h.hex,
-           split_[static_cast<std::size_t>(depth)].groups()[static_cast<std::size_t>(g)].parity});
+    if (g >= 0) active.push_back({h.hex, parity_of(g)});
   }
   active_ = std::move(active);
+}
+
+std::uint8_t PillowStack::parity_of(std::int32_t group) const {
+  return split_[static_cast<std::size_t>(depth_)].groups()[static_cast<std::size_t>(group)].parity;
 }
 
 std::int32_t PillowStack::group_around(const LatticeCoord& p) const {
@@ -55,16 +56,16 @@ void PillowStack::wrap_axis(int axis) {
     complex_.places[h] = place_layer_hex(inner, outer, axis);
     if (!complex_.places[h].is_lattice()) continue;
     const std::int32_t g = group_around(complex_.places[h].point());
-    if (g >= 0)
-      active_.push_back(
-          {h,
-           split_[static_cast<std::size_t>(depth_)].groups()[static_cast<std::size_t>(g)].parity});
+    if (g >= 0) active_.push_back({h, parity_of(g)});
   }
 }
 
+bool PillowStack::is_on_plane(const LatticeCoord& p, int axis, int parity) const {
+  return (p[axis] & (spacing_ - 1)) == 0 && ((p[axis] / spacing_) & 1) == (parity >> axis & 1);
+}
+
 bool PillowStack::is_on_core_plane(const ActiveHex& h, int axis) const {
-  const std::int32_t coord = complex_.places[h.hex].point()[axis];
-  return (coord & (spacing_ - 1)) == 0 && ((coord / spacing_) & 1) == (h.parity >> axis & 1);
+  return is_on_plane(complex_.places[h.hex].point(), axis, h.parity);
 }
 
 // Between two lattice hexes one spacing apart along the pillow's axis the layer hex is the dual of
@@ -79,7 +80,36 @@ HexPlace PillowStack::place_layer_hex(HexId inner, HexId outer, int axis) const 
     mid[axis] = (mid[axis] + b.point()[axis]) / 2;
     return HexPlace::lattice(mid);
   }
+  if (std::popcount(static_cast<unsigned>(differing)) == 2 && !domain_.is_box())
+    return place_bent(inner, outer, axis, differing);
   return HexPlace::cap(inner, outer);
+}
+
+bool PillowStack::is_core_point(const LatticeCoord& p, int axis) const {
+  const std::int32_t g = group_around(p);
+  return g >= 0 && is_on_plane(p, axis, parity_of(g));
+}
+
+// Around a boundary vertex without hex of its own (some non-convex corners of the domain) hexes
+// that differ on two axes are neighbours: the dual edge bends at that vertex. The layer hex goes
+// where it would be if the edge were straight.
+HexPlace PillowStack::place_bent(HexId inner, HexId outer, int axis, int differing) const {
+  const LatticeCoord a = complex_.places[inner].point(), b = complex_.places[outer].point();
+  int c = std::countr_zero(static_cast<unsigned>(differing));
+  int d = std::countr_zero(static_cast<unsigned>(differing & (differing - 1)));
+  if (d == axis) std::swap(c, d);
+  LatticeCoord via_c = a, via_d = a;
+  via_c[c] = b[c];
+  via_d[d] = b[d];
+  const bool bends_at_c = domain_.is_corner_or_crease(via_c);
+  if (bends_at_c == domain_.is_corner_or_crease(via_d)) return HexPlace::cap(inner, outer);
+  const bool is_crossing = c == axis && std::abs(a[axis] - b[axis]) == spacing_;
+  if (is_crossing && (bends_at_c || is_core_point(via_d, axis))) {
+    LatticeCoord mid = bends_at_c ? a : via_d;
+    mid[c] = (a[c] + b[c]) / 2;
+    return HexPlace::lattice(mid);
+  }
+  return HexPlace::cap(inner, outer, bends_at_c ? 1 << c : 1 << d);
 }
 
 }  // namespace hexwright::dual

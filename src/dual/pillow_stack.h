@@ -26,9 +26,11 @@ class PillowStack {
   void activate_depth(int depth);
   void wrap_axis(int axis);
   bool is_on_core_plane(const ActiveHex& h, int axis) const;
+  bool is_on_plane(const LatticeCoord& p, int axis, int parity) const;
+  std::uint8_t parity_of(std::int32_t group) const;
   bool is_core_point(const LatticeCoord& p, int axis) const;
   HexPlace place_layer_hex(HexId inner, HexId outer, int axis) const;
-  HexPlace place_bent(HexId inner, HexId outer, int axis, int other) const;
+  HexPlace place_bent(HexId inner, HexId outer, int axis, int differing) const;
   std::int32_t group_around(const LatticeCoord& p) const;
 
   HexComplex& complex_;

@@ -1,5 +1,10 @@
 #include "dual/positions.h"
 
+#include <algorithm>
+#include <map>
+
+#include "hexwright/base/parallel.h"
+
 namespace hexwright::dual {
 
 namespace {
@@ -7,17 +12,13 @@ namespace {
 // Share of the way from the inner to the outer hex at which a cap sits.
 constexpr double kCapHeight = 0.4;
 
-Vec3 to_vec3(const LatticeCoord& p) {
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
 // Place of every hex on the finest lattice; caps refer to older hexes only.
 IdVector<HexId, Vec3> compute_places(const HexComplex& complex) {
-  IdVector<HexId, Vec3> places(complex.num_hexes());
-  for (HexId h : complex.verts.ids()) {
+  IdVector<HexId, Vec3> places(complex.places.size());
+  for (HexId h : complex.places.ids()) {
     const HexPlace& place = complex.places[h];
     if (place.is_lattice()) {
-      places[h] = to_vec3(place.point());
+      for (int a = 0; a < 3; ++a) places[h][a] = place.point()[a];
       continue;
     }
     const Vec3 inner = places[place.inner()], outer = places[place.outer()];
@@ -28,41 +29,78 @@ IdVector<HexId, Vec3> compute_places(const HexComplex& complex) {
   return places;
 }
 
-// Calls body(vertex, plane) for every vertex of every boundary face.
-template <class Body>
-void for_each_boundary_vert(const HexComplex& complex, Body&& body) {
-  for (HexId h : complex.verts.ids())
-    for (int lf = 0; lf < 6; ++lf)
-      if (complex.links[h][lf].is_plane())
-        for (int lv : kHexFaces[lf])
-          body(complex.verts[h][lv],
-               complex.planes[static_cast<std::size_t>(complex.links[h][lf].plane())]);
+// At concave corners of the domain several hexes may share one place: it counts once.
+Vec3 mean_of_distinct(std::span<const HexCorner> star, const IdVector<HexId, Vec3>& places) {
+  Vec3 sum;
+  int count = 0;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const Vec3& p = places[star[i].hex];
+    bool is_new = true;
+    for (std::size_t j = 0; j < i && is_new; ++j) is_new = !(places[star[j].hex] == p);
+    if (!is_new) continue;
+    sum += p;
+    ++count;
+  }
+  return count ? sum / count : sum;
+}
+
+FixedAxes pull_to_planes(const HexComplex& complex, HexMesh& mesh) {
+  FixedAxes fixed(mesh.num_verts(), 0);
+  for (HexId h : complex.links.ids())
+    for (int lf = 0; lf < 6; ++lf) {
+      const FaceLink link = complex.links[h][lf];
+      if (!link.is_plane()) continue;
+      const DomainPlane& plane = complex.planes[static_cast<std::size_t>(link.plane())];
+      for (int lv : kHexFaces[lf]) {
+        const VertId v = mesh.hexes[h][lv];
+        mesh.positions[v][plane.axis] = plane.coord;
+        fixed[v] = static_cast<std::uint8_t>(fixed[v] | 1 << plane.axis);
+      }
+    }
+  return fixed;
+}
+
+// A step from v towards its star's mean, a quarter of the shortest distance in it.
+Vec3 step_inwards(VertId v, std::span<const HexCorner> star, const HexMesh& mesh) {
+  Vec3 direction;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const HexCorner& c : star)
+    for (VertId w : mesh.hexes[c.hex]) {
+      const Vec3 offset = mesh.positions[w] - mesh.positions[v];
+      direction += offset;
+      const double length = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
+      if (length > 0) shortest = std::min(shortest, length);
+    }
+  return 0.25 * shortest * normalized(direction);
+}
+
+// Where four octants meet in a chiral path two corner vertices land on one lattice vertex. Both
+// leave it, which chamfers the domain there.
+void separate_chiral_corners(const VertToHex& vert_to_hex, HexMesh& mesh, FixedAxes& fixed) {
+  std::map<std::array<double, 3>, std::vector<VertId>> corners;
+  for (VertId v : fixed.ids()) {
+    const Vec3& p = mesh.positions[v];
+    if (fixed[v] == 7) corners[{p.x, p.y, p.z}].push_back(v);
+  }
+  std::vector<std::pair<VertId, Vec3>> steps;
+  for (const auto& [position, verts] : corners)
+    for (VertId v : verts)
+      if (verts.size() > 1) steps.push_back({v, step_inwards(v, vert_to_hex[v], mesh)});
+  for (const auto& [v, step] : steps) {
+    mesh.positions[v] += step;
+    fixed[v] = 0;
+  }
 }
 
 }  // namespace
 
-IdVector<VertId, Vec3> compute_positions(const HexComplex& complex) {
+FixedAxes place_verts(const HexComplex& complex, const VertToHex& vert_to_hex, HexMesh& mesh) {
   const auto places = compute_places(complex);
-  const auto num_verts = static_cast<std::size_t>(complex.num_verts);
-  IdVector<VertId, Vec3> positions(num_verts);
-  IdVector<VertId, int> count(num_verts, 0);
-  for (HexId h : complex.verts.ids())
-    for (VertId v : complex.verts[h]) {
-      positions[v] += places[h];
-      ++count[v];
-    }
-  for (VertId v : positions.ids())
-    if (count[v] > 0) positions[v] = positions[v] / count[v];
-  for_each_boundary_vert(
-      complex, [&](VertId v, const DomainPlane& plane) { positions[v][plane.axis] = plane.coord; });
-  return positions;
-}
-
-IdVector<VertId, std::uint8_t> collect_fixed_axes(const HexComplex& complex) {
-  IdVector<VertId, std::uint8_t> fixed(static_cast<std::size_t>(complex.num_verts), 0);
-  for_each_boundary_vert(complex, [&](VertId v, const DomainPlane& plane) {
-    fixed[v] = static_cast<std::uint8_t>(fixed[v] | 1 << plane.axis);
+  parallel_for(mesh.num_verts(), [&](std::size_t v) {
+    mesh.positions[VertId(v)] = mean_of_distinct(vert_to_hex[VertId(v)], places);
   });
+  FixedAxes fixed = pull_to_planes(complex, mesh);
+  separate_chiral_corners(vert_to_hex, mesh, fixed);
   return fixed;
 }
 

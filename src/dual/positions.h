@@ -1,17 +1,18 @@
 // First positions of the vertices, from the places of the hexes around them.
 #pragma once
 
-#include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/mesh/hex_adjacency.h"
 
 #include "dual/hex_complex.h"
 
 namespace hexwright::dual {
 
-/// Positions on the finest lattice: the mean of the places of a vertex's hexes, moved into the
-/// planes of the domain's boundary that the vertex lies on.
-IdVector<VertId, Vec3> compute_positions(const HexComplex& complex);
+/// Bit a is set when a vertex may not move along axis a: it lies on a boundary plane across it.
+using FixedAxes = IdVector<VertId, std::uint8_t>;
 
-/// Bit a is set when the vertex may not move along axis a: it lies on a boundary plane across it.
-IdVector<VertId, std::uint8_t> collect_fixed_axes(const HexComplex& complex);
+/// Sets `mesh.positions` (one per vertex, in units of the finest lattice): the mean of the distinct
+/// places of a vertex's hexes, moved into the planes of the domain's boundary that it lies on.
+/// `mesh.hexes` holds the complex's hexes. Returns the axes that stay fixed.
+FixedAxes place_verts(const HexComplex& complex, const VertToHex& vert_to_hex, HexMesh& mesh);
 
 }  // namespace hexwright::dual

@@ -42,6 +42,23 @@ TEST(DualMesh, CountsOfNestedBlocks) {
   }
 }
 
+// 2x2x2 roots with some left out.
+TEST(DualMesh, CountsOfCubesWithoutCorners) {
+  const auto count = [](std::set<LatticeCoord> missing) {
+    std::vector<LatticeCoord> roots;
+    for (const LatticeCoord& r : box_roots(2, 2, 2))
+      if (!missing.count(r)) roots.push_back(r);
+    const Grid grid = grid_of_splits(roots, {});
+    const auto result = build_dual(grid, kRaw, {});
+    EXPECT_EQ(find_mesh_problem(result.mesh, grid), "");
+    return result.mesh.num_hexes();
+  };
+  EXPECT_EQ(count({}), 27u);
+  EXPECT_EQ(count({{1, 1, 1}}), 31u);
+  EXPECT_EQ(count({{1, 1, 1}, {1, 1, 0}}), 27u);
+  EXPECT_EQ(count({{1, 1, 1}, {1, 0, 1}, {0, 1, 1}}), 23u);
+}
+
 TEST(DualMesh, BlocksModeRejectsUnpairedGrids) {
   const Grid grid = grid_of_splits(box_roots(3, 3, 3), {{0, {1, 1, 1}}});
   try {
