@@ -35,6 +35,20 @@ int Domain::octants_at(const LatticeCoord& point) const {
   return octants;
 }
 
+bool Domain::is_chiral_corner(const LatticeCoord& point) const {
+  const int octants = octants_at(point);
+  int num_octants = 0, num_ends = 0, num_links = 0;
+  for (int q = 0; q < 8; ++q) {
+    if (!(octants >> q & 1)) continue;
+    int degree = 0;
+    for (int a = 0; a < 3; ++a) degree += octants >> (q ^ 1 << a) & 1;
+    ++num_octants;
+    num_ends += degree == 1;
+    num_links += degree;
+  }
+  return num_octants == 4 && num_ends == 2 && num_links == 6;
+}
+
 bool Domain::is_corner_or_crease(const LatticeCoord& point) const {
   const int octants = octants_at(point);
   if (octants == 0 || octants == 0xFF) return false;

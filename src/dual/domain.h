@@ -21,6 +21,9 @@ class Domain {
   /// Is the point on the domain's boundary, at a place where that is not flat?
   bool is_corner_or_crease(const LatticeCoord& point) const;
 
+  /// Do four octants of the domain meet at the point in a twisted path?
+  bool is_chiral_corner(const LatticeCoord& point) const;
+
   /// The roots in the grid's order, and a distinct index below num_cell_indices() for each.
   const std::vector<LatticeCoord>& roots() const { return root_list_; }
   std::size_t cell_index(const LatticeCoord& root) const;

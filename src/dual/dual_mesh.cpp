@@ -108,7 +108,7 @@ DualResult build_dual(const Grid& grid, const DualOptions& options, const Contex
   mesh.positions.resize(static_cast<std::size_t>(complex.num_verts));
   mesh.hexes = std::move(complex.verts);
   const VertToHex vert_to_hex(mesh);
-  place_verts(complex, vert_to_hex, mesh);
+  place_verts(Domain(used_grid), complex, vert_to_hex, mesh);
 
   if (options.inset) drop_border_hexes(complex, mesh);
   measure_raw(mesh, result.report);

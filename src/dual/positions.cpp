@@ -76,11 +76,14 @@ Vec3 step_inwards(VertId v, std::span<const HexCorner> star, const HexMesh& mesh
 
 // Where four octants meet in a chiral path two corner vertices land on one lattice vertex. Both
 // leave it, which chamfers the domain there.
-void separate_chiral_corners(const VertToHex& vert_to_hex, HexMesh& mesh, FixedAxes& fixed) {
-  std::map<std::array<double, 3>, std::vector<VertId>> corners;
+void separate_chiral_corners(const Domain& domain, const VertToHex& vert_to_hex, HexMesh& mesh,
+                             FixedAxes& fixed) {
+  std::map<LatticeCoord, std::vector<VertId>> corners;
   for (VertId v : fixed.ids()) {
-    const Vec3& p = mesh.positions[v];
-    if (fixed[v] == 7) corners[{p.x, p.y, p.z}].push_back(v);
+    if (fixed[v] != 7) continue;
+    LatticeCoord point;
+    for (int a = 0; a < 3; ++a) point[a] = static_cast<std::int32_t>(mesh.positions[v][a]);
+    if (domain.is_chiral_corner(point)) corners[point].push_back(v);
   }
   std::vector<std::pair<VertId, Vec3>> steps;
   for (const auto& [position, verts] : corners)
@@ -94,13 +97,14 @@ void separate_chiral_corners(const VertToHex& vert_to_hex, HexMesh& mesh, FixedA
 
 }  // namespace
 
-FixedAxes place_verts(const HexComplex& complex, const VertToHex& vert_to_hex, HexMesh& mesh) {
+FixedAxes place_verts(const Domain& domain, const HexComplex& complex, const VertToHex& vert_to_hex,
+                      HexMesh& mesh) {
   const auto places = compute_places(complex);
   parallel_for(mesh.num_verts(), [&](std::size_t v) {
     mesh.positions[VertId(v)] = mean_of_distinct(vert_to_hex[VertId(v)], places);
   });
   FixedAxes fixed = pull_to_planes(complex, mesh);
-  separate_chiral_corners(vert_to_hex, mesh, fixed);
+  if (!domain.is_box()) separate_chiral_corners(domain, vert_to_hex, mesh, fixed);
   return fixed;
 }
 

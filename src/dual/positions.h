@@ -3,6 +3,7 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "dual/domain.h"
 #include "dual/hex_complex.h"
 
 namespace hexwright::dual {
@@ -13,6 +14,7 @@ using FixedAxes = IdVector<VertId, std::uint8_t>;
 /// Sets `mesh.positions` (one per vertex, in units of the finest lattice): the mean of the distinct
 /// places of a vertex's hexes, moved into the planes of the domain's boundary that it lies on.
 /// `mesh.hexes` holds the complex's hexes. Returns the axes that stay fixed.
-FixedAxes place_verts(const HexComplex& complex, const VertToHex& vert_to_hex, HexMesh& mesh);
+FixedAxes place_verts(const Domain& domain, const HexComplex& complex, const VertToHex& vert_to_hex,
+                      HexMesh& mesh);
 
 }  // namespace hexwright::dual

@@ -71,6 +71,17 @@ Grid SplitTree::grid() const {
   return make_grid({{0, 0, 0}, 1}, roots_, cells);
 }
 
+bool SplitTree::is_box() const {
+  LatticeCoord lo = roots_.front(), hi = lo;
+  for (const LatticeCoord& r : roots_)
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = std::min(lo[a], r[a]);
+      hi[a] = std::max(hi[a], r[a]);
+    }
+  const int volume = (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1);
+  return static_cast<std::size_t>(volume) == roots_.size();
+}
+
 Grid grid_of_splits(const std::vector<LatticeCoord>& roots, const std::vector<NodeSpec>& nodes) {
   SplitTree tree(roots);
   for (const NodeSpec& n : nodes) tree.split(n.depth, n.node);

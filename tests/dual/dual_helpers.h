@@ -40,6 +40,7 @@ class SplitTree {
   }
   const std::vector<LatticeCoord>& roots() const { return roots_; }
   Grid grid() const;
+  bool is_box() const;  ///< the roots fill a box
 
  private:
   std::vector<LatticeCoord> roots_;
