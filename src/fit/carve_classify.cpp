@@ -1,0 +1,176 @@
+// Based on: Barill et al., "Fast Winding Numbers for Soups and Clouds", 2018, for the sign.
+// Differs: where the surface is closed and consistently oriented the winding number is constant off
+// the surface, so hexes far from it inherit their sign from a neighbour.
+#include "fit/carve_classify.h"
+
+#include <algorithm>
+
+#include "hexwright/base/parallel.h"
+
+namespace hexwright::fitting {
+namespace {
+
+constexpr double kNearRadii = 1.5;  // farther centres (in hex radii) have the whole hex on one side
+
+double filled(double signed_distance_in_edges) {
+  return std::clamp(0.5 - signed_distance_in_edges, 0.0, 1.0);
+}
+
+// Every directed edge has as many opposites: the triangles bound something, and their winding
+// number changes across the surface only.
+bool is_oriented_cycle(const TriMesh& surface) {
+  struct Edge {
+    VertId lo, hi;
+    int sign;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * surface.num_tris());
+  for (const auto& tri : surface.tris)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertId a = tri[k], b = tri[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+    }
+  parallel_stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.lo != b.lo ? a.lo < b.lo : a.hi < b.hi;
+  });
+  int balance = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    balance += edges[i].sign;
+    const bool is_last =
+        i + 1 == edges.size() || edges[i + 1].lo != edges[i].lo || edges[i + 1].hi != edges[i].hi;
+    if (is_last && balance != 0) return false;
+  }
+  return true;
+}
+
+struct Classifier {
+  const HexMesh& mesh;
+  const VertToHex& vert_to_hex;
+  const HexNeighbors& neighbors;
+  const SurfaceTree& surface;
+  IdVector<HexId, double> radius, centre_distance;
+  IdVector<HexId, char> touches;    // the surface is within kNearRadii of the centre
+  IdVector<HexId, char> is_inside;  // of the centre
+  IdVector<VertId, double> vert_distance;
+  HexFilling result;
+
+  Vec3 centre(HexId h) const {
+    Vec3 sum;
+    for (const Vec3& p : mesh.corners(h)) sum += p;
+    return sum / 8;
+  }
+
+  void measure_centres() {
+    parallel_for(
+        mesh.num_hexes(),
+        [&](std::size_t i) {
+          const HexId h(i);
+          const Vec3 c = centre(h);
+          for (const Vec3& p : mesh.corners(h)) radius[h] = std::max(radius[h], distance(p, c));
+          result.edge[h] = radius[h] / 0.866;
+          ClosestFilter filter;
+          filter.max_distance = kNearRadii * radius[h];
+          centre_distance[h] = filter.max_distance;
+          const auto found = surface.closest(c, filter);
+          if (!found) return;
+          touches[h] = 1;
+          centre_distance[h] = std::sqrt(found->distance_sq);
+          result.nearest[h] = found->point;
+          result.is_near[h] = centre_distance[h] < 0.5 * result.edge[h];
+        },
+        64);
+  }
+
+  // The segment between two centres of far face neighbours does not meet the surface, so that the
+  // far hexes of one face-connected component share the sign of their first member.
+  void sign_far_hexes() {
+    IdVector<HexId, char> seen(mesh.num_hexes(), 0);
+    std::vector<HexId> stack;
+    for (HexId seed : mesh.hexes.ids()) {
+      if (touches[seed] || seen[seed]) continue;
+      const char sign = surface.is_inside(centre(seed));
+      seen[seed] = 1;
+      stack.push_back(seed);
+      while (!stack.empty()) {
+        const HexId h = stack.back();
+        stack.pop_back();
+        is_inside[h] = sign;
+        for (HexId other : neighbors.neighbor[h]) {
+          if (!other.is_valid() || touches[other] || seen[other]) continue;
+          seen[other] = 1;
+          stack.push_back(other);
+        }
+      }
+    }
+  }
+
+  void sign_centres() {
+    const bool inherit = is_oriented_cycle(surface.surface());
+    if (inherit) sign_far_hexes();
+    parallel_for(
+        mesh.num_hexes(),
+        [&](std::size_t i) {
+          const HexId h(i);
+          if (touches[h] || !inherit) is_inside[h] = surface.is_inside(centre(h));
+        },
+        64);
+  }
+
+  // Signed distance of the vertices of hexes that the surface touches, cut off where it no longer
+  // matters.
+  void measure_verts() {
+    parallel_for(
+        mesh.num_verts(),
+        [&](std::size_t i) {
+          const VertId v(i);
+          double reach = 0;
+          for (const HexCorner& corner : vert_to_hex[v])
+            if (touches[corner.hex]) reach = std::max(reach, result.edge[corner.hex]);
+          if (reach == 0) return;
+          ClosestFilter filter;
+          filter.max_distance = reach;
+          const auto found = surface.closest(mesh.positions[v], filter);
+          const double distance = found ? std::sqrt(found->distance_sq) : reach;
+          vert_distance[v] = surface.is_inside(mesh.positions[v]) ? -distance : distance;
+        },
+        64);
+  }
+
+  void fill() {
+    parallel_for(mesh.num_hexes(), [&](std::size_t i) {
+      const HexId h(i);
+      const double sign = is_inside[h] ? -1 : 1;
+      double f = filled(sign * centre_distance[h] / result.edge[h]);
+      if (touches[h]) {
+        double sum = 0;
+        for (VertId v : mesh.hexes[h]) sum += filled(0.6 * vert_distance[v] / result.edge[h]);
+        f = 0.5 * f + sum / 16;
+      }
+      result.fraction[h] = static_cast<float>(f);
+    });
+  }
+};
+
+}  // namespace
+
+HexFilling classify_hexes(const HexMesh& mesh, const VertToHex& vert_to_hex,
+                          const HexNeighbors& neighbors, const SurfaceTree& surface) {
+  const std::size_t n = mesh.num_hexes();
+  Classifier c{mesh, vert_to_hex, neighbors, surface, {}, {}, {}, {}, {}, {}};
+  c.radius.assign(n, 0);
+  c.centre_distance.assign(n, 0);
+  c.touches.assign(n, 0);
+  c.is_inside.assign(n, 0);
+  c.vert_distance.assign(mesh.num_verts(), 0);
+  c.result.fraction.assign(n, 0);
+  c.result.is_near.assign(n, 0);
+  c.result.nearest.resize(n);
+  c.result.edge.assign(n, 0);
+  c.measure_centres();
+  c.sign_centres();
+  c.measure_verts();
+  c.fill();
+  return std::move(c.result);
+}
+
+}  // namespace hexwright::fitting
