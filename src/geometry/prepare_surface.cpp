@@ -1,0 +1,214 @@
+// Check, weld, clean, orient, judge: the passes in order, with a sentence for what each found.
+#include "hexwright/geometry/prepare_surface.h"
+
+#include <algorithm>
+
+#include "hexwright/geometry/similarity.h"
+#include "hexwright/geometry/surface_tree.h"
+
+#include "geometry/surface_clean.h"
+#include "geometry/surface_orient.h"
+
+namespace hexwright {
+namespace {
+
+/// Volume below this share of area x diagonal is rounding, not a solid.
+constexpr double kLeastVolume = 1e-12;
+/// A point counts as inside an open surface above this winding number; beside a lone sheet it comes
+/// close to one half.
+constexpr double kClearlyInside = 0.55;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::BadGeometry, message);
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+void check_input(const TriMesh& input) {
+  if (input.num_tris() == 0)
+    refuse("the surface has no triangles; check that the file holds faces and was exported whole");
+  for (TriId t : input.tris.ids())
+    for (VertId v : input.tris[t]) {
+      if (!v.is_valid() || v.index() >= input.num_verts())
+        refuse("triangle " + std::to_string(t.value()) + " uses vertex " +
+               std::to_string(v.value()) + " of " + std::to_string(input.num_verts()) +
+               "; repair the file's indices");
+      if (!is_finite(input.positions[v]))
+        refuse("vertex " + std::to_string(v.value()) + " (used by triangle " +
+               std::to_string(t.value()) +
+               ") has a coordinate that is not a finite number; repair or remove it");
+    }
+  const Box3 box = bounding_box(input);
+  if (box.lo == box.hi)
+    refuse("all vertices lie at one point; check the file's coordinates and units");
+}
+
+/// Vertices no triangle uses may lie anywhere, also at infinity: they must not reach arithmetic.
+TriMesh used_only(const TriMesh& input) {
+  IdVector<VertId, char> is_used(input.num_verts(), 0);
+  for (const auto& tri : input.tris)
+    for (VertId v : tri) is_used[v] = 1;
+  TriMesh mesh = input;
+  for (VertId v : mesh.positions.ids())
+    if (!is_used[v]) mesh.positions[v] = input.positions[input.tris[TriId(0)][0]];
+  return mesh;
+}
+
+/// Refuses what lies in one plane, within the rounding of positions in the unit frame.
+void check_not_flat(const TriMesh& mesh) {
+  Vec3 normal, origin;
+  double largest = -1;
+  for (TriId t : mesh.tris.ids()) {
+    const auto c = mesh.corners(t);
+    const Vec3 n = cross(c[1] - c[0], c[2] - c[0]);
+    if (norm_sq(n) <= largest) continue;
+    largest = norm_sq(n);
+    normal = normalized(n);
+    origin = c[0];
+  }
+  constexpr double kRounding = 1e-14;
+  for (TriId t : mesh.tris.ids())
+    for (const Vec3& p : mesh.corners(t))
+      if (std::abs(dot(normal, p - origin)) > kRounding) return;
+  refuse("the surface is flat and encloses no volume; give it thickness");
+}
+
+void judge_edges(const TriMesh& mesh, SurfaceDiagnosis& diagnosis) {
+  const SurfaceEdges edges = compute_surface_edges(mesh);
+  diagnosis.is_closed = true;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto sides = edges.sides_of(e);
+    diagnosis.num_boundary_edges += sides.size() == 1;
+    diagnosis.num_nonmanifold_edges += sides.size() > 2;
+    diagnosis.is_closed =
+        diagnosis.is_closed && sides.size() == 2 && sides[0].is_forward != sides[1].is_forward;
+  }
+  if (2 * diagnosis.num_boundary_edges > edges.size())
+    refuse("the triangles do not join to a surface: " +
+           std::to_string(diagnosis.num_boundary_edges) + " of " + std::to_string(edges.size()) +
+           " edges belong to one triangle only; export the model as a connected (watertight) mesh");
+}
+
+/// Looks for points well inside: along the inward normals and on a lattice over the box.
+bool encloses_something(const TriMesh& mesh) {
+  const SurfaceTree tree(mesh);
+  const double diagonal = tree.box().diagonal();
+  const std::size_t count = std::min<std::size_t>(mesh.num_tris(), 500);
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriId t(i * mesh.num_tris() / count);
+    const auto c = mesh.corners(t);
+    for (double depth : {1e-3, 1e-2, 5e-2})
+      if (tree.winding_number((c[0] + c[1] + c[2]) / 3 - tree.normal(t) * (depth * diagonal)) >
+          kClearlyInside)
+        return true;
+  }
+  constexpr int kLattice = 12;
+  for (int i = 0; i < kLattice * kLattice * kLattice; ++i) {
+    const Vec3 f{(i % kLattice + 0.5) / kLattice, (i / kLattice % kLattice + 0.5) / kLattice,
+                 (i / kLattice / kLattice + 0.5) / kLattice};
+    const Vec3 e = tree.box().extent();
+    if (tree.winding_number(tree.box().lo + Vec3{f.x * e.x, f.y * e.y, f.z * e.z}) > kClearlyInside)
+      return true;
+  }
+  return false;
+}
+
+void check_volume(const TriMesh& mesh, bool is_closed) {
+  double area2 = 0;
+  for (TriId t : mesh.tris.ids()) {
+    const auto c = mesh.corners(t);
+    area2 += norm(cross(c[1] - c[0], c[2] - c[0]));
+  }
+  const double least = kLeastVolume * area2 * bounding_box(mesh).diagonal();
+  if (is_closed ? signed_volume6(mesh) > least : encloses_something(mesh)) return;
+  refuse(std::string("the surface encloses no volume (") +
+         (is_closed ? "its two sides coincide" : "it is too open to have an inside") +
+         "); give it thickness or close it");
+}
+
+/// The result in the input's coordinates, without the vertices that nothing uses.
+TriMesh compact(const TriMesh& working, const TriMesh& input) {
+  TriMesh out;
+  IdVector<VertId, char> is_used(input.num_verts(), 0);
+  for (const auto& tri : working.tris)
+    for (VertId v : tri) is_used[v] = 1;
+  IdVector<VertId, VertId> old_to_new(input.num_verts());
+  for (VertId v : input.positions.ids())
+    if (is_used[v]) old_to_new[v] = out.positions.push_back(input.positions[v]);
+  for (const auto& tri : working.tris)
+    out.tris.push_back({old_to_new[tri[0]], old_to_new[tri[1]], old_to_new[tri[2]]});
+  return out;
+}
+
+std::vector<std::string> describe(const SurfaceDiagnosis& d, const Orientation& o,
+                                  std::size_t num_flat_kept) {
+  std::vector<std::string> said;
+  if (d.num_degenerate_tris > 0)
+    said.push_back(counted(d.num_degenerate_tris, "triangle", "triangles") +
+                   " without area removed");
+  if (num_flat_kept > 0)
+    said.push_back(counted(num_flat_kept, "triangle", "triangles") +
+                   " without area kept, because the surface would open without");
+  if (d.num_duplicate_tris > 0)
+    said.push_back(counted(d.num_duplicate_tris, "duplicate triangle", "duplicate triangles") +
+                   " removed");
+  if (d.num_flipped_tris > 0)
+    said.push_back(counted(d.num_flipped_tris, "triangle", "triangles") +
+                   " turned to agree with the surface around");
+  if (d.is_flipped_whole)
+    said.push_back("the surface was inside out and has been turned");
+  else if (o.num_turned_parts > 0)
+    said.push_back(counted(o.num_turned_parts, "part was", "parts were") +
+                   " inside out and turned");
+  if (o.num_twisted_edges > 0)
+    said.push_back("the surface cannot be oriented consistently at " +
+                   counted(o.num_twisted_edges, "edge", "edges") +
+                   "; the result may be wrong there");
+  if (o.num_nested_solids > 0)
+    said.push_back(counted(o.num_nested_solids, "closed part lies", "closed parts lie") +
+                   " inside another with the same orientation and counts as solid; turn it inside "
+                   "out if it is a cavity");
+  if (d.num_boundary_edges > 0)
+    said.push_back("the surface is open along " + counted(d.num_boundary_edges, "edge", "edges") +
+                   "; inside is decided by the winding number");
+  if (d.num_nonmanifold_edges > 0)
+    said.push_back(counted(d.num_nonmanifold_edges, "edge has", "edges have") +
+                   " more than two triangles; inside is decided by the winding number");
+  return said;
+}
+
+}  // namespace
+
+PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
+  check_input(input);
+  const TriMesh used = used_only(input);
+  WorkingSurface work{to_unit(used, compute_unit_frame(used)), {}};
+  for (TriId t : input.tris.ids()) work.source.push_back(t);
+
+  PreparedSurface result;
+  SurfaceDiagnosis& diagnosis = result.diagnosis;
+  std::size_t num_flat_kept = 0;
+  diagnosis.num_welded_verts = weld_open_edges(work.mesh);
+  diagnosis.num_degenerate_tris = remove_degenerate_tris(work, num_flat_kept);
+  diagnosis.num_duplicate_tris = remove_duplicate_tris(work);
+  if (work.mesh.num_tris() == num_flat_kept)
+    refuse("all triangles are without area; check the file's coordinates");
+  check_not_flat(work.mesh);
+  context.check_cancelled();
+
+  const Orientation orientation = orient_surface(work.mesh, context);
+  diagnosis.num_flipped_tris = orientation.num_repaired;
+  diagnosis.is_flipped_whole = orientation.num_turned_parts == orientation.num_parts;
+  judge_edges(work.mesh, diagnosis);
+  check_volume(work.mesh, diagnosis.is_closed);
+
+  diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
+  for (const std::string& warning : diagnosis.warnings) context.warn(warning);
+  result.mesh = compact(work.mesh, input);
+  result.source_tri = std::move(work.source);
+  return result;
+}
+
+}  // namespace hexwright

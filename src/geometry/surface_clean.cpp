@@ -1,0 +1,198 @@
+// Degenerate and duplicate triangles.
+#include "geometry/surface_clean.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hexwright {
+namespace {
+
+constexpr int kFlipPasses = 10;
+
+bool repeats_vertex(const std::array<VertId, 3>& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+std::size_t at3(int k) { return static_cast<std::size_t>(k % 3); }
+
+int longest_side(const std::array<Vec3, 3>& c) {
+  int longest = 0;
+  for (int k = 1; k < 3; ++k)
+    if (distance(c[at3(k)], c[at3(k + 1)]) > distance(c[at3(longest)], c[at3(longest + 1)]))
+      longest = k;
+  return longest;
+}
+
+/// The height over the longest side is within the rounding of positions in the unit frame.
+bool has_no_area(const std::array<Vec3, 3>& c) {
+  constexpr double kRounding = 4e-16;
+  const int k = longest_side(c);
+  const double longest = distance(c[at3(k)], c[at3(k + 1)]);
+  return norm(cross(c[1] - c[0], c[2] - c[0])) <= kRounding * longest;
+}
+
+/// Replaces caps (the middle vertex lies on the longest side) by splitting the neighbour there.
+class CapFlipper {
+ public:
+  explicit CapFlipper(WorkingSurface& surface)
+      : surface_(surface),
+        edges_(compute_surface_edges(surface.mesh)),
+        is_touched_(surface.mesh.num_tris(), 0) {}
+
+  std::size_t run() {
+    std::size_t count = 0;
+    for (TriId t : surface_.mesh.tris.ids())
+      if (!is_touched_[t] && has_no_area(surface_.mesh.corners(t))) count += flip(t);
+    return count;
+  }
+
+ private:
+  bool flip(TriId cap) {
+    auto& tris = surface_.mesh.tris;
+    const int k = longest_side(surface_.mesh.corners(cap));
+    const VertId a = tris[cap][at3(k)], c = tris[cap][at3(k + 1)], b = tris[cap][at3(k + 2)];
+    const auto& x = surface_.mesh.positions;
+    if (x[b] == x[a] || x[b] == x[c]) return false;  // a needle: its vertices coincide
+    const auto sides = edges_.sides_of(static_cast<std::size_t>(edges_.find(a, c)));
+    if (sides.size() != 2) return false;
+    const auto& other = sides[0].tri == cap ? sides[1] : sides[0];
+    if (other.tri == cap || is_touched_[other.tri]) return false;
+    const VertId p = tris[other.tri][at3(other.k)], q = tris[other.tri][at3(other.k + 1)];
+    const VertId d = tris[other.tri][at3(other.k + 2)];
+    const std::uint64_t new_key = edge_key(b, d);
+    if (d == b || edges_.find(b, d) >= 0 ||
+        std::find(new_keys_.begin(), new_keys_.end(), new_key) != new_keys_.end())
+      return false;
+    tris[other.tri] = {p, b, d};
+    tris[cap] = {b, q, d};
+    surface_.source[cap] = surface_.source[other.tri];
+    is_touched_[cap] = is_touched_[other.tri] = 1;
+    new_keys_.push_back(new_key);
+    return true;
+  }
+
+  WorkingSurface& surface_;
+  SurfaceEdges edges_;
+  IdVector<TriId, char> is_touched_;
+  std::vector<std::uint64_t> new_keys_;
+};
+
+std::size_t drop_repeating(WorkingSurface& surface) {
+  std::vector<char> is_kept;
+  for (const auto& t : surface.mesh.tris) is_kept.push_back(!repeats_vertex(t));
+  const auto count = static_cast<std::size_t>(std::count(is_kept.begin(), is_kept.end(), 0));
+  if (count > 0) surface.keep(is_kept);
+  return count;
+}
+
+/// Triangles without area that have an open side may go: what they covered was nothing.
+void drop_open_degenerate(WorkingSurface& surface, std::size_t& num_kept) {
+  const SurfaceEdges edges = compute_surface_edges(surface.mesh);
+  IdVector<TriId, int> num_open(surface.mesh.num_tris(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges.sides_of(e).size() == 1) ++num_open[edges.sides_of(e)[0].tri];
+  std::vector<char> is_kept(surface.mesh.num_tris(), 1);
+  num_kept = 0;
+  for (TriId t : surface.mesh.tris.ids()) {
+    if (!has_no_area(surface.mesh.corners(t))) continue;
+    is_kept[t.index()] = num_open[t] == 0;
+    num_kept += num_open[t] == 0;
+  }
+  surface.keep(is_kept);
+}
+
+}  // namespace
+
+void WorkingSurface::keep(const std::vector<char>& is_kept) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < is_kept.size(); ++i) {
+    if (!is_kept[i]) continue;
+    mesh.tris[TriId(next)] = mesh.tris[TriId(i)];
+    source[TriId(next)] = source[TriId(i)];
+    ++next;
+  }
+  mesh.tris.resize(next);
+  source.resize(next);
+}
+
+std::size_t remove_degenerate_tris(WorkingSurface& surface, std::size_t& num_kept) {
+  num_kept = 0;
+  std::size_t count = drop_repeating(surface);
+  std::size_t num_flat = 0;
+  for (TriId t : surface.mesh.tris.ids()) num_flat += has_no_area(surface.mesh.corners(t));
+  if (num_flat == 0) return count;
+  for (int pass = 0; pass < kFlipPasses && CapFlipper(surface).run() > 0; ++pass) {
+  }
+  drop_open_degenerate(surface, num_kept);
+  return count + num_flat;
+}
+
+namespace {
+
+struct SortedTri {
+  std::array<VertId, 3> key;  // increasing
+  bool is_even;               // whether the triangle is an even permutation of the key
+  TriId tri;
+};
+
+SortedTri sorted(const TriMesh& mesh, TriId t) {
+  auto v = mesh.tris[t];
+  bool is_even = true;
+  for (const auto& [i, j] : {std::pair{0u, 1u}, {1u, 2u}, {0u, 1u}})
+    if (v[j] < v[i]) {
+      std::swap(v[i], v[j]);
+      is_even = !is_even;
+    }
+  return {v, is_even, t};
+}
+
+/// Keep flags when each group of duplicates becomes one; when `cancel`, groups with as many of one
+/// orientation as of the other become none.
+std::vector<char> reduce_groups(const TriMesh& mesh, const std::vector<SortedTri>& tris,
+                                bool cancel) {
+  std::vector<char> is_kept(mesh.num_tris(), 1);
+  for (std::size_t i = 0, j = 0; i < tris.size(); i = j) {
+    long balance = 0;
+    for (j = i; j < tris.size() && tris[j].key == tris[i].key; ++j)
+      balance += tris[j].is_even ? 1 : -1;
+    if (j - i == 1) continue;
+    const bool want_even = balance != 0 ? balance > 0 : tris[i].is_even;
+    bool is_done = cancel && balance == 0;
+    for (std::size_t k = i; k < j; ++k) {
+      const bool keeps = !is_done && tris[k].is_even == want_even;
+      is_kept[tris[k].tri.index()] = keeps;
+      is_done = is_done || keeps;
+    }
+  }
+  return is_kept;
+}
+
+std::size_t odd_edges_with(const WorkingSurface& surface, const std::vector<char>& is_kept) {
+  WorkingSurface reduced = surface;
+  reduced.keep(is_kept);
+  return count_odd_edges(compute_surface_edges(reduced.mesh));
+}
+
+}  // namespace
+
+std::size_t remove_duplicate_tris(WorkingSurface& surface) {
+  std::vector<SortedTri> tris;
+  for (TriId t : surface.mesh.tris.ids()) tris.push_back(sorted(surface.mesh, t));
+  std::sort(tris.begin(), tris.end(), [](const SortedTri& a, const SortedTri& b) {
+    return a.key != b.key ? a.key < b.key : a.tri < b.tri;
+  });
+  const bool has_duplicates =
+      std::adjacent_find(tris.begin(), tris.end(),
+                         [](const auto& a, const auto& b) { return a.key == b.key; }) != tris.end();
+  if (!has_duplicates) return 0;
+  // A wall between two touching solids cancels; both sides of a doubled surface must not.
+  std::vector<char> is_kept = reduce_groups(surface.mesh, tris, true);
+  const std::vector<char> one_each = reduce_groups(surface.mesh, tris, false);
+  const bool is_empty = std::count(is_kept.begin(), is_kept.end(), 1) == 0;
+  if (is_empty || odd_edges_with(surface, is_kept) > odd_edges_with(surface, one_each))
+    is_kept = one_each;
+  surface.keep(is_kept);
+  return static_cast<std::size_t>(std::count(is_kept.begin(), is_kept.end(), 0));
+}
+
+}  // namespace hexwright

@@ -1,0 +1,38 @@
+// The passes of prepare_surface that change which triangles there are.
+#pragma once
+
+#include <vector>
+
+#include "hexwright/mesh/tri_mesh.h"
+
+#include "geometry/surface_edges.h"
+
+namespace hexwright {
+
+/// The surface under preparation, in the unit frame. Vertices keep their numbers until the end.
+struct WorkingSurface {
+  TriMesh mesh;
+  IdVector<TriId, TriId> source;  ///< per triangle: its id in the input
+
+  /// Keeps the triangles for which the flag is set.
+  void keep(const std::vector<char>& is_kept);
+};
+
+/// Edges with an odd number of triangles: zero when the surface encloses a volume.
+std::size_t count_odd_edges(const SurfaceEdges& edges);
+
+/// Joins vertices on open edges that coincide, or nearly so where that closes the surface.
+/// Returns the number of vertices that disappear. Surfaces without open edges stay as they are,
+/// whatever touches: equal positions alone are no reason to weld.
+std::size_t weld_open_edges(TriMesh& mesh);
+
+/// Removes triangles without area: those that repeat a vertex are dropped, caps are flipped into
+/// their neighbour, others are dropped where that opens nothing. Returns how many there were;
+/// `num_kept` of them are still there because dropping would have opened the surface.
+std::size_t remove_degenerate_tris(WorkingSurface& surface, std::size_t& num_kept);
+
+/// Reduces triangles on the same three vertices to one; equal numbers of opposite orientation
+/// cancel, unless that opens the surface. Returns how many are dropped.
+std::size_t remove_duplicate_tris(WorkingSurface& surface);
+
+}  // namespace hexwright

@@ -1,0 +1,249 @@
+#include "hexwright/geometry/prepare_surface.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "hexwright/geometry/surface_topology.h"
+
+#include "geometry/random_soup.h"
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+void append(TriMesh& to, const TriMesh& from, double scale, const Vec3& shift) {
+  const auto base = to.num_verts();
+  for (const Vec3& p : from.positions) to.positions.push_back(p * scale + shift);
+  for (const auto& t : from.tris)
+    to.tris.push_back(
+        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+}
+
+TriMesh reversed(TriMesh mesh) {
+  for (auto& t : mesh.tris) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// Every triangle with its own three vertices, moved by up to `noise`.
+TriMesh soup_of(const TriMesh& mesh, double noise) {
+  std::mt19937_64 random(29);
+  TriMesh soup;
+  for (TriId t : mesh.tris.ids()) {
+    std::array<VertId, 3> tri;
+    for (std::size_t k = 0; k < 3; ++k)
+      tri[k] = soup.positions.push_back(mesh.corners(t)[k] + test::random_point(random, noise));
+    soup.tris.push_back(tri);
+  }
+  return soup;
+}
+
+double volume(const TriMesh& mesh) {
+  double sum = 0;
+  for (TriId t : mesh.tris.ids()) {
+    const auto c = mesh.corners(t);
+    sum += det(c[0], c[1], c[2]) / 6;
+  }
+  return sum;
+}
+
+TriMesh cube_in_cube(bool is_inner_reversed) {
+  TriMesh both = test::unit_cube_surface();
+  const TriMesh inner = test::unit_cube_surface();
+  append(both, is_inner_reversed ? reversed(inner) : inner, 0.5, {0.25, 0.25, 0.25});
+  return both;
+}
+
+void expect_refused(const TriMesh& mesh, const std::string& part_of_message) {
+  try {
+    prepare_surface(mesh, {});
+    ADD_FAILURE() << "accepted: " << part_of_message;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::BadGeometry);
+    EXPECT_NE(std::string(e.what()).find(part_of_message), std::string::npos) << e.what();
+  }
+}
+
+TEST(PrepareSurface, LeavesAGoodSurfaceAlone) {
+  const TriMesh cube = test::unit_cube_surface();
+  const auto p = prepare_surface(cube, {});
+  EXPECT_EQ(p.mesh.positions, cube.positions);
+  EXPECT_EQ(p.mesh.tris, cube.tris);
+  EXPECT_TRUE(p.diagnosis.is_closed);
+  EXPECT_TRUE(p.diagnosis.warnings.empty());
+}
+
+TEST(PrepareSurface, WeldsSoupsEvenWhenInexact) {
+  for (double noise : {0.0, 1e-12, 1e-9, 1e-7}) {
+    const auto p = prepare_surface(soup_of(test::unit_cube_surface(), noise), {});
+    EXPECT_TRUE(p.diagnosis.is_closed) << noise;
+    EXPECT_EQ(p.mesh.num_verts(), 8u);
+    EXPECT_EQ(p.diagnosis.num_welded_verts, 28u);
+    EXPECT_NEAR(volume(p.mesh), 1, 1e-6);
+  }
+}
+
+TEST(PrepareSurface, NeverWeldsAcrossAGapOrAThinSheet) {
+  TriMesh gap = test::unit_cube_surface();
+  append(gap, test::unit_cube_surface(), 1, {1 + 1e-9, 0, 0});
+  TriMesh sheet = test::unit_cube_surface();
+  for (Vec3& p : sheet.positions) p.z *= 1e-7;
+  for (const TriMesh& mesh : {gap, sheet})
+    for (const TriMesh& given : {mesh, soup_of(mesh, 0)}) {
+      const auto p = prepare_surface(given, {});
+      EXPECT_TRUE(p.diagnosis.is_closed);
+      EXPECT_EQ(p.mesh.num_verts(), mesh.num_verts());
+      EXPECT_EQ(compute_topology(p.mesh).num_components, compute_topology(mesh).num_components);
+    }
+}
+
+TEST(PrepareSurface, TouchingSolidsStayApartUnlessTheyComeAsASoup) {
+  TriMesh touching = test::unit_cube_surface();
+  append(touching, test::unit_cube_surface(), 1, {1, 0, 0});
+  EXPECT_EQ(compute_topology(prepare_surface(touching, {}).mesh).num_components, 2u);
+  const auto merged = prepare_surface(soup_of(touching, 0), {});
+  EXPECT_TRUE(merged.diagnosis.is_closed);
+  EXPECT_NEAR(volume(merged.mesh), 2, 1e-12);
+}
+
+TEST(PrepareSurface, DropsRepeatedAndDuplicateTriangles) {
+  TriMesh cube = test::unit_cube_surface();
+  cube.tris.push_back({VertId(1), VertId(1), VertId(2)});
+  cube.tris.push_back(cube.tris[TriId(3)]);
+  cube.tris.push_back({cube.tris[TriId(5)][1], cube.tris[TriId(5)][2], cube.tris[TriId(5)][0]});
+  const auto p = prepare_surface(cube, {});
+  EXPECT_EQ(p.diagnosis.num_degenerate_tris, 1u);
+  EXPECT_EQ(p.diagnosis.num_duplicate_tris, 2u);
+  EXPECT_EQ(p.mesh.tris, test::unit_cube_surface().tris);
+}
+
+TEST(PrepareSurface, FlipsCapsIntoTheirNeighbour) {
+  // The side of a cube with a vertex in the middle of an edge, closed by a triangle without area.
+  TriMesh cube = test::unit_cube_surface();
+  const auto [a, b, c] = cube.tris[TriId(0)];
+  const VertId m = cube.positions.push_back((cube.positions[a] + cube.positions[b]) * 0.5);
+  cube.tris[TriId(0)] = {a, m, c};
+  cube.tris.push_back({m, b, c});
+  cube.tris.push_back({a, b, m});
+  ASSERT_TRUE(compute_topology(cube).is_closed_manifold());
+  const auto p = prepare_surface(cube, {});
+  EXPECT_TRUE(p.diagnosis.is_closed);
+  EXPECT_EQ(p.diagnosis.num_degenerate_tris, 1u);
+  for (TriId t : p.mesh.tris.ids()) {
+    const auto x = p.mesh.corners(t);
+    EXPECT_GT(norm(cross(x[1] - x[0], x[2] - x[0])), 0.1);
+  }
+  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+}
+
+TEST(PrepareSurface, TurnsAnInsideOutSurface) {
+  const auto p = prepare_surface(reversed(test::unit_cube_surface()), {});
+  EXPECT_TRUE(p.diagnosis.is_flipped_whole);
+  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+}
+
+TEST(PrepareSurface, RepairsRandomOrientations) {
+  const TriMesh good = prepare_surface(test::unit_sphere_surface(3), {}).mesh;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    TriMesh bad = good;
+    std::size_t num_bad = 0;
+    for (auto& t : bad.tris)
+      if (random() % 20 < seed) {
+        std::swap(t[1], t[2]);
+        ++num_bad;
+      }
+    const auto p = prepare_surface(bad, {});
+    EXPECT_TRUE(p.diagnosis.is_closed);
+    EXPECT_NEAR(volume(p.mesh), volume(good), 1e-9);
+    EXPECT_EQ(p.diagnosis.num_flipped_tris, num_bad);
+  }
+}
+
+TEST(PrepareSurface, CavitiesStayCavitiesWhateverTheWholeOrientation) {
+  const double expected = 1 - 0.125;
+  EXPECT_NEAR(volume(prepare_surface(cube_in_cube(true), {}).mesh), expected, 1e-12);
+  EXPECT_NEAR(volume(prepare_surface(reversed(cube_in_cube(true)), {}).mesh), expected, 1e-12);
+}
+
+TEST(PrepareSurface, AmbiguousNestingIsKeptWithAWarning) {
+  const auto p = prepare_surface(cube_in_cube(false), {});
+  EXPECT_NEAR(volume(p.mesh), 1.125, 1e-12);
+  ASSERT_EQ(p.diagnosis.warnings.size(), 1u);
+  EXPECT_NE(p.diagnosis.warnings[0].find("cavity"), std::string::npos);
+}
+
+TEST(PrepareSurface, OnePieceInsideOutAmongSeveralIsTurned) {
+  TriMesh pieces = test::unit_cube_surface();
+  append(pieces, reversed(test::unit_cube_surface()), 0.5, {3, 0, 0});
+  EXPECT_NEAR(volume(prepare_surface(pieces, {}).mesh), 1.125, 1e-12);
+}
+
+TEST(PrepareSurface, OpenSurfacesWithAnInsideAreAcceptedAndTurnedOutwards) {
+  TriMesh open = test::unit_cube_surface();
+  open.tris.resize(10);
+  for (const TriMesh& mesh : {open, reversed(open)}) {
+    const auto p = prepare_surface(mesh, {});
+    EXPECT_EQ(p.diagnosis.num_boundary_edges, 4u);
+    EXPECT_FALSE(p.diagnosis.warnings.empty());
+    EXPECT_GT(test::brute_winding(p.mesh, {0.5, 0.5, 0.5}), 0.5);
+  }
+}
+
+TEST(PrepareSurface, WorksAtAnyScaleAndPosition) {
+  const TriMesh cube = test::unit_cube_surface();
+  for (double scale : {1e-310, 1e-200, 1e-20, 1e30, 1e200, 1e307}) {
+    TriMesh scaled;
+    append(scaled, cube, scale, {});
+    const auto p = prepare_surface(soup_of(scaled, 0), {});
+    EXPECT_TRUE(p.diagnosis.is_closed) << scale;
+    EXPECT_EQ(p.mesh.num_verts(), 8u);
+  }
+  TriMesh far;
+  append(far, cube, 1, {1e9, -1e9, 1e9});
+  EXPECT_TRUE(prepare_surface(soup_of(far, 0), {}).diagnosis.is_closed);
+}
+
+TEST(PrepareSurface, StrayVerticesDoNotMatter) {
+  TriMesh cube = test::unit_cube_surface();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  cube.positions.push_back({1e300, nan, 0});
+  const auto p = prepare_surface(cube, {});
+  EXPECT_EQ(p.mesh.num_verts(), 8u);
+}
+
+TEST(PrepareSurface, RefusesWhatCannotBeMeshedAndSaysWhy) {
+  expect_refused({}, "no triangles");
+  TriMesh nan = test::unit_cube_surface();
+  nan.positions[VertId(6)].y = std::numeric_limits<double>::infinity();
+  expect_refused(nan, "vertex 6");
+  TriMesh line;
+  for (int i = 0; i < 9; ++i) line.positions.push_back({1.0 * i, 2.0 * i, 3.0 * i});
+  for (int i = 0; i < 7; ++i) line.tris.push_back({VertId(i), VertId(i + 1), VertId(i + 2)});
+  expect_refused(line, "without area");
+  TriMesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.tris = {{VertId(0), VertId(1), VertId(2)}, {VertId(0), VertId(2), VertId(3)}};
+  expect_refused(sheet, "flat");
+  append(sheet, reversed(sheet), 1, {});
+  expect_refused(sheet, "flat");
+  expect_refused(test::random_soup(100, 31), "do not join");
+  TriMesh point;
+  point.positions = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
+  point.tris = {{VertId(0), VertId(1), VertId(2)}};
+  expect_refused(point, "one point");
+}
+
+TEST(PrepareSurface, SourceTrianglesLeadBackToTheInput) {
+  const TriMesh soup = soup_of(test::unit_cube_surface(), 0);
+  const auto p = prepare_surface(reversed(soup), {});
+  for (TriId t : p.mesh.tris.ids())
+    EXPECT_NEAR(distance((p.mesh.corners(t)[0] + p.mesh.corners(t)[1] + p.mesh.corners(t)[2]) / 3,
+                         (soup.corners(p.source_tri[t])[0] + soup.corners(p.source_tri[t])[1] +
+                          soup.corners(p.source_tri[t])[2]) /
+                             3),
+                0, 1e-12);
+}
+
+}  // namespace
+}  // namespace hexwright
