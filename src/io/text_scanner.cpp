@@ -1,6 +1,7 @@
 // Tokens and numbers of text files.
 #include "io/text_scanner.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -68,6 +69,12 @@ std::string_view TextScanner::rest_of_line() {
   }
   if (last > first && last[-1] == '\r') --last;
   return {first, static_cast<std::size_t>(last - first)};
+}
+
+std::string_view TextScanner::take(std::size_t num_bytes) {
+  const std::string_view result(at_, std::min(num_bytes, bytes_left()));
+  at_ += result.size();
+  return result;
 }
 
 bool TextScanner::skip_blank() {

@@ -29,6 +29,8 @@ class TextScanner {
   std::string_view line_token();
   /// The rest of this line without its end; moves to the start of the next line.
   std::string_view rest_of_line();
+  /// The next bytes as they are, at most all that are left; for binary parts of text files.
+  std::string_view take(std::size_t num_bytes);
   /// Moves to the start of the next line.
   void next_line() { rest_of_line(); }
 

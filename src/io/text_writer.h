@@ -1,4 +1,5 @@
-// Builds text output fast; numbers are written with as many digits as reading them back needs.
+// Builds output of text and binary parts fast; numbers are written with as many digits as reading
+// them back needs.
 #pragma once
 
 #include <charconv>
@@ -6,6 +7,8 @@
 #include <string_view>
 
 #include "hexwright/base/vec3.h"
+
+#include "io/byte_reader.h"
 
 namespace hexwright::io {
 
@@ -30,6 +33,11 @@ class TextWriter {
       is_first = false;
       integer(id.value() + base);
     }
+    return *this;
+  }
+  template <class Number>
+  TextWriter& binary(Number value, ByteOrder order) {
+    store(out_, value, order);
     return *this;
   }
   std::string take() { return std::move(out_); }

@@ -32,8 +32,7 @@ std::string name(const HexMesh& mesh, HexFace face) {
 
 void add_problem(TopologyReport& report, std::size_t count, const char* what,
                  const std::string& first) {
-  if (count > 0)
-    report.problems.push_back(std::to_string(count) + " " + what + "; the first is " + first);
+  report.problems.push_back(std::to_string(count) + " " + what + "; the first is " + first);
 }
 
 // Indices for which `holds` is true: how many, and the first.
@@ -65,7 +64,9 @@ void check_repeated_verts(const HexMesh& mesh, TopologyReport& report) {
   const Found found = find_all(
       mesh.num_hexes(), [&](std::size_t h) { return has_repeated_vert(mesh.hexes[HexId(h)]); });
   report.num_repeated_verts = found.count;
-  add_problem(report, found.count, "hex(es) use a vertex more than once", name(HexId(found.first)));
+  if (found.count > 0)
+    add_problem(report, found.count, "hex(es) use a vertex more than once",
+                name(HexId(found.first)));
 }
 
 // Whether b runs through the vertices of a the other way round.
@@ -104,8 +105,9 @@ void check_faces(const HexMesh& mesh, const HexNeighbors& adjacency, TopologyRep
   };
   const Found found = find_all(6 * mesh.num_hexes(), is_misoriented);
   report.num_misoriented_faces = found.count;
-  add_problem(report, found.count, "shared face(s) whose two hexes are not oriented alike",
-              name(mesh, {HexId(found.first / 6), static_cast<int>(found.first % 6)}));
+  if (found.count > 0)
+    add_problem(report, found.count, "shared face(s) whose two hexes are not oriented alike",
+                name(mesh, {HexId(found.first / 6), static_cast<int>(found.first % 6)}));
 }
 
 // Neighbours of h with a higher number that it meets in two or more faces.
@@ -144,6 +146,7 @@ void check_boundary(const BoundarySurface& boundary, TopologyReport& report) {
   if (verts.count > 0)
     add_problem(report, verts.count, "boundary vertex(es) where parts of the boundary touch",
                 name(boundary.verts[verts.first].vert));
+  report.num_boundary_quads = boundary.quads.size();
   report.num_boundary_components = boundary.num_components;
   report.boundary_euler_characteristic = static_cast<long>(boundary.verts.size()) -
                                          static_cast<long>(boundary.edges.size()) +
@@ -181,6 +184,8 @@ std::size_t count_components(const HexNeighbors& adjacency) {
 
 TopologyReport check_topology(const HexMesh& mesh) {
   TopologyReport report;
+  report.num_hexes = mesh.num_hexes();
+  report.num_verts = mesh.num_verts();
   check_repeated_verts(mesh, report);
   const HexNeighbors adjacency = compute_hex_neighbors(mesh);
   check_faces(mesh, adjacency, report);

@@ -112,7 +112,7 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double spacing = options.spacing * diagonal;
   const double hot = options.hot_threshold > 0 ? options.hot_threshold * diagonal
                                                : std::numeric_limits<double>::infinity();
-  const SurfaceTree boundary(boundary_triangles(mesh));
+  const SurfaceTree boundary(triangulate_quads(mesh, collect_judged_quads(mesh, options.quads)));
   Partial to_mesh = measure(surface.surface(), {boundary, hot}, spacing);
   const Partial to_surface = measure(boundary.surface(), {surface, hot}, spacing);
 
@@ -128,20 +128,34 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   return result;
 }
 
-TriMesh boundary_triangles(const HexMesh& mesh) {
+std::vector<std::array<VertId, 4>> collect_judged_quads(const HexMesh& mesh, JudgedQuads which) {
+  std::vector<std::array<VertId, 4>> quads;
+  if (which == JudgedQuads::Labeled) {
+    for (const LabeledQuad& quad : mesh.labels.quads)
+      if (quad.patch.is_valid()) quads.push_back(quad.verts);
+  } else {
+    const HexNeighbors adjacency = compute_hex_neighbors(mesh);
+    for (const HexFace& face : adjacency.boundary) quads.push_back(face_verts(mesh, face));
+  }
+  return quads;
+}
+
+TriMesh triangulate_quads(const HexMesh& mesh, const std::vector<std::array<VertId, 4>>& quads) {
   TriMesh triangles;
   triangles.positions = mesh.positions;
-  const HexNeighbors adjacency = compute_hex_neighbors(mesh);
-  triangles.positions.reserve(mesh.num_verts() + adjacency.boundary.size());
-  triangles.tris.reserve(4 * adjacency.boundary.size());
-  for (const HexFace& face : adjacency.boundary) {
-    const auto quad = face_verts(mesh, face);
+  triangles.positions.reserve(mesh.num_verts() + quads.size());
+  triangles.tris.reserve(4 * quads.size());
+  for (const auto& quad : quads) {
     Vec3 center;
     for (VertId v : quad) center += mesh.positions[v] * 0.25;
     const VertId c = triangles.positions.push_back(center);
     for (std::size_t k = 0; k < 4; ++k) triangles.tris.push_back({quad[k], quad[(k + 1) % 4], c});
   }
   return triangles;
+}
+
+TriMesh boundary_triangles(const HexMesh& mesh) {
+  return triangulate_quads(mesh, collect_judged_quads(mesh, JudgedQuads::Boundary));
 }
 
 }  // namespace hexwright

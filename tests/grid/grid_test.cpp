@@ -6,33 +6,14 @@
 
 #include "hexwright/base/error.h"
 
+#include "grid/grid_helpers.h"
 #include "grid/morton.h"
 
 namespace hexwright {
 namespace {
 
-std::vector<CellSpec> specs_of(const Grid& grid) {
-  std::vector<CellSpec> specs;
-  for (const GridCell& cell : grid.cells) {
-    const int shift = grid.finest_level - cell.level;
-    specs.push_back(
-        {cell.level, {cell.corner[0] >> shift, cell.corner[1] >> shift, cell.corner[2] >> shift}});
-  }
-  return specs;
-}
-
-Grid random_grid(std::mt19937& rng, const std::vector<LatticeCoord>& roots, int rounds) {
-  std::vector<CellSpec> specs;
-  for (const LatticeCoord& root : roots) specs.push_back({0, root});
-  Grid grid = make_grid({}, roots, specs);
-  for (int k = 0; k < rounds; ++k) {
-    std::vector<char> marks(grid.num_cells());
-    for (char& m : marks) m = rng() % 3 == 0;
-    marks[rng() % marks.size()] = 1;
-    grid = split_cells(grid, marks);
-  }
-  return grid;
-}
+using test::random_grid;
+using test::specs_of;
 
 const std::vector<LatticeCoord> kBentRoots = {{0, 0, 0}, {-1, 0, 0}, {-1, 1, 0}, {3, -2, 1}};
 

@@ -9,6 +9,7 @@
 namespace hexwright {
 
 struct TopologyReport {
+  std::size_t num_hexes = 0, num_verts = 0, num_boundary_quads = 0;
   std::size_t num_repeated_verts = 0;       ///< hexes with fewer than 8 distinct vertices
   std::size_t num_nonconforming_faces = 0;  ///< faces shared by three or more hexes
   std::size_t num_misoriented_faces = 0;  ///< shared faces whose two hexes do not run opposite ways

@@ -7,6 +7,7 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/geometry/feature_graph.h"
+#include "hexwright/geometry/surface_topology.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/hex_topology.h"
 #include "hexwright/quality/surface_distance.h"
@@ -16,7 +17,9 @@ namespace hexwright {
 /// How much of the surface's sharp features the mesh's edges and vertices represent.
 struct FeatureRecovery {
   double total_length = 0;  ///< of the surface's feature curves, world units
-  double length_share = 1;  ///< share of it within edge_tolerance of a mesh edge that runs along it
+  /// Share of it within edge_tolerance of a boundary edge of the mesh that runs along it, that is
+  /// at no more than 30 degrees.
+  double length_share = 1;
   std::size_t num_corners = 0;
   std::size_t num_corners_recovered =
       0;  ///< within corner_tolerance of a mesh vertex on the boundary
@@ -26,21 +29,28 @@ struct JudgeOptions {
   FeatureOptions features;
   double edge_tolerance = 0.001;     ///< share of the diagonal
   double corner_tolerance = 0.0005;  ///< share of the diagonal
-  DistanceOptions distance;
+  DistanceOptions distance;  ///< its `quads` also say whose edges and vertices may be features
 };
+
+/// Features of the surface that the mesh represents. Samples the curves every edge_tolerance.
+FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
+                                 const FeatureGraph& features, const JudgeOptions& options);
 
 struct Verdict {
   TopologyReport topology;
   QualitySummary quality;
   std::optional<SurfaceDistance> distance;  ///< with a surface only
   std::optional<FeatureRecovery> features;
+  std::optional<SurfaceTopology> surface;  ///< to compare the mesh's components and genus with
   std::vector<std::string>
       failures;  ///< why it is not valid, one sentence each; warnings are not here
   std::vector<std::string> warnings;
   bool is_valid() const { return failures.empty(); }
 };
 
-/// Valid = topology valid and no inverted hex. Distance and features are reported, not judged.
+/// Valid = at least one hex, topology valid and no inverted hex. Distance, features, components and
+/// genus are reported, with warnings, not judged. Throws Error{BadArgument} when an index of the
+/// mesh is out of range or a coordinate is not finite.
 Verdict judge(const HexMesh& mesh, const JudgeOptions& options, const Context& context);
 Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOptions& options,
               const Context& context);

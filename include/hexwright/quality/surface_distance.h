@@ -1,6 +1,7 @@
 // How far a mesh's boundary is from the surface it stands for, both ways.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "hexwright/geometry/surface_tree.h"
@@ -8,7 +9,18 @@
 
 namespace hexwright {
 
+/// Which quads of a hex mesh stand for the surface.
+enum class JudgedQuads {
+  Boundary,  ///< the whole boundary
+  Labeled    ///< the labelled quads that carry a patch: leaves out the box around an outside mesh,
+             ///< and finds the interface of a mesh of both sides
+};
+
+/// The quads, counter-clockwise seen from outside.
+std::vector<std::array<VertId, 4>> collect_judged_quads(const HexMesh& mesh, JudgedQuads which);
+
 struct DistanceOptions {
+  JudgedQuads quads = JudgedQuads::Boundary;
   double spacing = 0.004;  ///< distance between samples, share of the surface's diagonal
   double hot_threshold =
       0;  ///< collect samples farther than this (share of the diagonal) into `hot`; 0 = none
@@ -32,5 +44,6 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
 /// The boundary of a hex mesh as triangles (four per quad, about its centre); vertices of the mesh
 /// come first.
 TriMesh boundary_triangles(const HexMesh& mesh);
+TriMesh triangulate_quads(const HexMesh& mesh, const std::vector<std::array<VertId, 4>>& quads);
 
 }  // namespace hexwright

@@ -1,0 +1,245 @@
+// What each block parity costs a cluster, and which parities of close clusters exclude each other.
+//
+// The blocks of one parity partition the lattice, so a cluster's blocks are counted by their
+// representatives: the required node that comes first in its block in (z, y, x) order.
+#include <algorithm>
+
+#include "hexwright/base/parallel.h"
+
+#include "grid/clusters.h"
+
+namespace hexwright {
+namespace {
+
+constexpr std::size_t kBricksPerChunk = 2048;
+
+/// Bit c of the result tells whether node c + offset is required, for a brick with the given
+/// neighbourhood; offset components within -1 .. 1.
+BrickBits shifted_by(const std::array<BrickBits, 27>& around, const LatticeCoord& offset) {
+  BrickBits out = 0;
+  for (int n = 0; n < 27; ++n) {
+    BrickBits w = around[n];
+    const std::array<int, 3> side = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    for (int a = 0; a < 3 && w != 0; ++a) {
+      if (side[a] == 0)
+        w = offset[a] == 0 ? w : offset[a] > 0 ? shift_down(w, a) : shift_up(w, a);
+      else if (side[a] == offset[a])
+        w = offset[a] > 0 ? move_slice(w, a, 0, 3) : move_slice(w, a, 3, 0);
+      else
+        w = 0;
+    }
+    out |= w;
+  }
+  return out;
+}
+
+/// Bits whose place in their block of the given parity is `place` (bit a: upper along axis a).
+constexpr BrickBits place_mask(Parity parity, int place) {
+  BrickBits mask = ~BrickBits{0};
+  for (int a = 0; a < 3; ++a) {
+    // Odd centre: pairs (0,1) (2,3), upper = odd coordinate. Even centre: the other way round.
+    const int first = ((parity >> a & 1) == 1) == ((place >> a & 1) == 1) ? 1 : 0;
+    mask &= slice(a, first) | slice(a, first + 2);
+  }
+  return mask;
+}
+
+using PlaceMasks = std::array<std::array<BrickBits, 8>, kNumParities>;
+constexpr PlaceMasks make_place_masks() {
+  PlaceMasks masks{};
+  for (Parity p = 0; p < kNumParities; ++p)
+    for (int place = 0; place < 8; ++place) masks[p][place] = place_mask(p, place);
+  return masks;
+}
+constexpr PlaceMasks kPlaceMasks = make_place_masks();
+
+/// The step from one place of a block to another.
+constexpr LatticeCoord place_offset(int from, int to) {
+  return {(to & 1) - (from & 1), (to >> 1 & 1) - (from >> 1 & 1), (to >> 2) - (from >> 2)};
+}
+
+/// Per parity: the nodes of `own` that come first in their block.
+std::array<BrickBits, kNumParities> representatives(BrickBits own,
+                                                    const std::array<BrickBits, 27>& around) {
+  std::array<BrickBits, 27> shifted{};
+  for (int n = 0; n < 13; ++n)  // the offsets that come before 0 in (z, y, x) order
+    shifted[n] = shifted_by(around, {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+  std::array<BrickBits, kNumParities> out{};
+  for (Parity p = 0; p < kNumParities; ++p)
+    for (int place = 0; place < 8; ++place) {
+      BrickBits earlier = 0;
+      for (int before = 0; before < place; ++before) {
+        const LatticeCoord o = place_offset(place, before);
+        earlier |= shifted[neighbour_number(o[0], o[1], o[2])];
+      }
+      out[p] |= own & kPlaceMasks[p][place] & ~earlier;
+    }
+  return out;
+}
+
+/// Number of domain nodes in the block that covers a node.
+int count_block_nodes(const LatticeCoord& node, Parity parity, int depth,
+                      const LatticeDomain& domain) {
+  const LatticeCoord v = block_center(node, parity);
+  int count = 0;
+  for (int q = 0; q < 8; ++q)
+    count += domain.contains({v[0] - (q & 1), v[1] - (q >> 1 & 1), v[2] - (q >> 2)}, depth);
+  return count;
+}
+
+int count_nodes(BrickBits representatives_here, BrickKey key, Parity parity, int depth,
+                const LatticeDomain& domain) {
+  int count = 0;
+  for (BrickBits rest = representatives_here; rest != 0; rest &= rest - 1)
+    count += count_block_nodes(node_of_bit(key, std::countr_zero(rest)), parity, depth, domain);
+  return count;
+}
+
+using PieceCosts = std::array<std::int32_t, kNumParities>;
+
+void brick_costs(const BrickSet& required, const Clusters& clusters, std::uint32_t b, int depth,
+                 const LatticeDomain& domain, std::vector<PieceCosts>& costs) {
+  const Brick& brick = required.bricks()[b];
+  const auto first = representatives(brick.bits, required.neighbourhood(brick.key));
+  const bool is_interior = domain.is_interior(brick.key, depth);
+  for (std::uint32_t i = clusters.brick_offset[b]; i < clusters.brick_offset[b + 1]; ++i)
+    for (Parity p = 0; p < kNumParities; ++p) {
+      const BrickBits mine = first[p] & clusters.pieces[i].bits;
+      costs[i][p] =
+          is_interior ? 8 * std::popcount(mine) : count_nodes(mine, brick.key, p, depth, domain);
+    }
+}
+
+/// Forbidden parity pairs by the first node's coordinate parities and the offset to the second.
+class ConflictTable {
+ public:
+  ConflictTable() : tables_(8 * 729, 0) {
+    for (int own = 0; own < 8; ++own)
+      for (int dz = -4; dz <= 4; ++dz)
+        for (int dy = -4; dy <= 4; ++dy)
+          for (int dx = -4; dx <= 4; ++dx)
+            tables_[slot(own, dx, dy, dz)] = compute(own, {dx, dy, dz});
+  }
+  PairTable at(const LatticeCoord& a, const LatticeCoord& b) const {
+    const int own = (a[0] & 1) | (a[1] & 1) << 1 | (a[2] & 1) << 2;
+    return tables_[slot(own, b[0] - a[0], b[1] - a[1], b[2] - a[2])];
+  }
+
+ private:
+  static std::size_t slot(int own, int dx, int dy, int dz) {
+    return static_cast<std::size_t>(own * 729 + (dx + 4) + 9 * (dy + 4) + 81 * (dz + 4));
+  }
+  static PairTable compute(int own, const LatticeCoord& offset) {
+    const LatticeCoord a = {own & 1, own >> 1 & 1, own >> 2};
+    const LatticeCoord b = {a[0] + offset[0], a[1] + offset[1], a[2] + offset[2]};
+    PairTable table = 0;
+    for (Parity p = 0; p < kNumParities; ++p)
+      for (Parity q = 0; q < kNumParities; ++q) {
+        const LatticeCoord v = block_center(a, p), w = block_center(b, q);
+        if (is_block_conflict({w[0] - v[0], w[1] - v[1], w[2] - v[2]}))
+          table |= PairTable{1} << (8 * p + q);
+      }
+    return table;
+  }
+  std::vector<PairTable> tables_;
+};
+
+/// Forbidden pairs of two sets of nodes in (possibly) different bricks.
+PairTable forbidden_pairs(const ConflictTable& table, BrickKey key_a, BrickBits a, BrickKey key_b,
+                          BrickBits b) {
+  PairTable out = 0;
+  for (BrickBits rest_a = a; rest_a != 0; rest_a &= rest_a - 1) {
+    const LatticeCoord node_a = node_of_bit(key_a, std::countr_zero(rest_a));
+    for (BrickBits rest_b = b; rest_b != 0; rest_b &= rest_b - 1) {
+      const LatticeCoord node_b = node_of_bit(key_b, std::countr_zero(rest_b));
+      bool is_close = true;
+      for (int k = 0; k < 3; ++k) is_close = is_close && std::abs(node_a[k] - node_b[k]) <= 4;
+      if (is_close) out |= table.at(node_a, node_b);
+    }
+  }
+  return out;
+}
+
+PairTable transposed(PairTable table) {
+  PairTable out = 0;
+  for (Parity p = 0; p < kNumParities; ++p)
+    for (Parity q = 0; q < kNumParities; ++q)
+      if (table >> (8 * p + q) & 1) out |= PairTable{1} << (8 * q + p);
+  return out;
+}
+
+void brick_conflicts(const BrickSet& required, const Clusters& clusters, std::uint32_t b,
+                     const ConflictTable& table, std::vector<Conflict>& out) {
+  const BrickKey key = required.bricks()[b].key;
+  const auto keys = neighbour_keys(key);
+  for (int n = 13; n < 27; ++n) {
+    const std::uint32_t other = n == 13 ? b : required.find(keys[n]);
+    if (other == BrickSet::kAbsent) continue;
+    for (std::uint32_t i = clusters.brick_offset[b]; i < clusters.brick_offset[b + 1]; ++i)
+      for (std::uint32_t j = clusters.brick_offset[other]; j < clusters.brick_offset[other + 1];
+           ++j) {
+        const Piece& p = clusters.pieces[i];
+        const Piece& q = clusters.pieces[j];
+        if (p.cluster == q.cluster || (n == 13 && j <= i)) continue;
+        const PairTable t = forbidden_pairs(table, key, p.bits, keys[n], q.bits);
+        if (t == 0) continue;
+        if (p.cluster < q.cluster)
+          out.push_back({p.cluster, q.cluster, t});
+        else
+          out.push_back({q.cluster, p.cluster, transposed(t)});
+      }
+  }
+}
+
+void merge_conflicts(std::vector<Conflict>& conflicts) {
+  std::sort(conflicts.begin(), conflicts.end(), [](const Conflict& a, const Conflict& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  });
+  std::size_t num_kept = 0;
+  for (const Conflict& c : conflicts) {
+    if (num_kept > 0 && conflicts[num_kept - 1].first == c.first &&
+        conflicts[num_kept - 1].second == c.second)
+      conflicts[num_kept - 1].forbidden |= c.forbidden;
+    else
+      conflicts[num_kept++] = c;
+  }
+  conflicts.resize(num_kept);
+}
+
+}  // namespace
+
+std::vector<std::array<std::int64_t, kNumParities>> block_costs(const BrickSet& required,
+                                                                const Clusters& clusters, int depth,
+                                                                const LatticeDomain& domain) {
+  std::vector<PieceCosts> by_piece(clusters.pieces.size());
+  parallel_for(
+      required.num_bricks(),
+      [&](std::size_t b) {
+        brick_costs(required, clusters, static_cast<std::uint32_t>(b), depth, domain, by_piece);
+      },
+      kBricksPerChunk);
+  std::vector<std::array<std::int64_t, kNumParities>> out(clusters.num_clusters);
+  for (auto& costs : out) costs.fill(0);
+  for (std::size_t i = 0; i < by_piece.size(); ++i)
+    for (Parity p = 0; p < kNumParities; ++p) out[clusters.pieces[i].cluster][p] += by_piece[i][p];
+  return out;
+}
+
+std::vector<Conflict> find_conflicts(const BrickSet& required, const Clusters& clusters) {
+  if (clusters.num_clusters < 2) return {};
+  static const ConflictTable table;
+  const std::size_t num_chunks = (required.num_bricks() + kBricksPerChunk - 1) / kBricksPerChunk;
+  std::vector<std::vector<Conflict>> by_chunk(num_chunks);
+  parallel_chunks(required.num_bricks(), kBricksPerChunk, [&](std::size_t begin, std::size_t end) {
+    auto& list = by_chunk[begin / kBricksPerChunk];
+    for (std::size_t b = begin; b < end; ++b)
+      brick_conflicts(required, clusters, static_cast<std::uint32_t>(b), table, list);
+    merge_conflicts(list);
+  });
+  std::vector<Conflict> all;
+  for (auto& list : by_chunk) all.insert(all.end(), list.begin(), list.end());
+  merge_conflicts(all);
+  return all;
+}
+
+}  // namespace hexwright

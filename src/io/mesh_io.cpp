@@ -1,0 +1,122 @@
+// Reads and writes hex and tet meshes: finds the format, checks what comes in and goes out.
+#include "hexwright/io/mesh_io.h"
+
+#include "hexwright/io/atomic_file.h"
+
+#include "io/file_bytes.h"
+#include "io/polygon_soup.h"
+#include "io/text_scanner.h"
+#include "io/volume_file.h"
+
+namespace hexwright {
+namespace io {
+namespace {
+
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what;
+}
+
+std::string content_of(const VolumeFile& file) {
+  return count_of(file.hexes.size(), "hexes, ") + count_of(file.tets.size(), "tets and ") +
+         count_of(file.labels.quads.size() + file.labels.edges.size() + file.num_others,
+                  "other elements");
+}
+
+void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
+  constexpr std::size_t kMostHexes = 200'000'000;  // 32-bit offsets of the formats
+  if (const auto issue = mesh.find_problem())
+    throw Error(ErrorCode::BadArgument, "the mesh cannot be written: " + issue->message);
+  if (mesh.num_hexes() > kMostHexes)
+    throw Error(ErrorCode::BadArgument, "the mesh has more than 2e8 hexes, too many for one file");
+  for (const HexField& field : options.fields) {
+    if (field.values.size() != mesh.num_hexes())
+      throw Error(ErrorCode::BadArgument, "the field '" + field.name + "' has " +
+                                              std::to_string(field.values.size()) + " values for " +
+                                              std::to_string(mesh.num_hexes()) +
+                                              " hexes; give one value per hex");
+    if (field.name.empty() || field.name.find_first_of(" \t\r\n\"<>&") != std::string::npos)
+      throw Error(ErrorCode::BadArgument,
+                  "the field name '" + field.name + "' is empty or has blanks or quotes");
+  }
+}
+
+}  // namespace
+
+VolumeFile read_volume_file(const std::filesystem::path& path) {
+  const FileBytes file = read_file(path);
+  const VolumeSource source = {file.bytes, file.name};
+  if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; export it again");
+  const std::string_view bytes = file.bytes;
+  if (bytes.starts_with("# vtk DataFile")) return read_vtk_legacy(source);
+  const std::string_view first = TextScanner(bytes, file.name).token();
+  if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(source);
+  if (first == "MeshVersionFormatted") return read_medit(source);
+  const std::string extension = lower_extension(path);
+  if (extension == ".mesh") return read_medit(source);
+  if (extension == ".vtk") return read_vtk_legacy(source);
+  if (extension == ".vtu") return read_vtu(source);
+  throw bad_file(file.name,
+                 "neither the content nor the extension is that of a known volume mesh format; "
+                 "give a MEDIT .mesh, legacy .vtk or .vtu file");
+}
+
+std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh) {
+  std::vector<std::uint8_t> flags(mesh.num_verts(), 0);
+  for (const LabeledQuad& quad : mesh.labels.quads)
+    for (VertId v : quad.verts) flags[v.index()] = 1;
+  for (const LabeledEdge& edge : mesh.labels.edges)
+    for (VertId v : edge.verts) flags[v.index()] = 2;
+  for (VertId v : mesh.labels.corners) flags[v.index()] = 3;
+  return flags;
+}
+
+}  // namespace io
+
+HexMesh read_hex_mesh(const std::filesystem::path& path) {
+  io::VolumeFile file = io::read_volume_file(path);
+  if (file.hexes.empty())
+    throw io::bad_file(path.string(), "the file holds no hexahedron (" + io::content_of(file) +
+                                          "); give a hexahedral mesh");
+  HexMesh mesh;
+  mesh.positions = std::move(file.positions);
+  mesh.hexes = std::move(file.hexes);
+  mesh.region = IdVector<HexId, std::int32_t>(std::move(file.region));
+  mesh.labels = std::move(file.labels);
+  if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);
+  return mesh;
+}
+
+TetMesh read_tet_mesh(const std::filesystem::path& path) {
+  io::VolumeFile file = io::read_volume_file(path);
+  if (file.tets.empty())
+    throw io::bad_file(path.string(), "the file holds no tetrahedron (" + io::content_of(file) +
+                                          "); give a tetrahedral mesh");
+  TetMesh mesh;
+  mesh.positions = std::move(file.positions);
+  mesh.tets = std::move(file.tets);
+  if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);
+  return mesh;
+}
+
+void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
+                    const WriteHexOptions& options) {
+  io::check_writable(mesh, options);
+  const std::string extension = io::lower_extension(path);
+  if (extension == ".vtu")
+    write_file_atomically(path, io::vtu_bytes(mesh, options));
+  else if (extension == ".vtk")
+    write_file_atomically(path, io::vtk_legacy_bytes(mesh, options));
+  else if (extension == ".mesh")
+    write_file_atomically(path, io::medit_text(mesh));
+  else
+    throw Error(ErrorCode::BadArgument,
+                "cannot write a hex mesh as '" + extension + "'; use .vtu, .vtk or .mesh",
+                path.string());
+}
+
+const std::vector<std::string>& hex_mesh_extensions() {
+  static const std::vector<std::string> kExtensions = {".vtu", ".vtk", ".mesh"};
+  return kExtensions;
+}
+
+}  // namespace hexwright

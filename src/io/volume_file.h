@@ -1,0 +1,56 @@
+// What the readers of volume mesh formats collect, and the functions of each format.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hexwright/io/mesh_io.h"
+#include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/mesh/tet_mesh.h"
+
+namespace hexwright::io {
+
+/// Elements of one file. Indices are checked by the readers.
+struct VolumeFile {
+  IdVector<VertId, Vec3> positions;
+  IdVector<HexId, std::array<VertId, 8>> hexes;
+  std::vector<std::int32_t> region;  ///< one per hex, or empty
+  IdVector<TetId, std::array<VertId, 4>> tets;
+  BoundaryLabels labels;
+  std::size_t num_others = 0;      ///< elements of kinds that are left out
+  std::vector<double> grid_frame;  ///< origin and root size when the file carries a grid, or empty
+};
+
+/// The bytes of a file and the name for messages.
+struct VolumeSource {
+  std::string_view bytes;
+  const std::string& name;
+};
+
+VolumeFile read_medit(const VolumeSource& source);
+VolumeFile read_vtk_legacy(const VolumeSource& source);
+VolumeFile read_vtu(const VolumeSource& source);
+/// Finds the format by content, then by extension.
+VolumeFile read_volume_file(const std::filesystem::path& path);
+
+std::string medit_text(const HexMesh& mesh);
+std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options);
+std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options);
+
+/// 0 = inside the volume or unlabelled, 1 = on a labelled quad, 2 = on a labelled edge, 3 = corner.
+std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh);
+
+/// Patch or curve number <-> the number in files whose 0 means "none": one more, 0 when invalid.
+template <class IdType>
+std::int32_t label_to_ref(IdType id) {
+  return id.is_valid() ? id.value() + 1 : 0;
+}
+template <class IdType>
+IdType ref_to_label(std::int64_t ref) {
+  return ref > 0 && ref <= 0x7fffffff ? IdType(ref - 1) : IdType();
+}
+
+}  // namespace hexwright::io

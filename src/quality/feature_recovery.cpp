@@ -1,0 +1,135 @@
+// How much of a surface's feature curves and corners a hex mesh represents.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/quality/judge.h"
+
+#include "quality/point_tree.h"
+
+namespace hexwright {
+namespace {
+
+// A mesh edge runs along a curve when their directions differ by 30 degrees at most: a polygon of
+// six sides still follows a circle, while edges that only cross the curve do not count.
+constexpr double kMinCosine = 0.86602540378443864;
+
+// Midpoints of equal pieces of the curves.
+struct CurveSamples {
+  std::vector<Vec3> points;
+  std::vector<Vec3> tangents;
+  std::vector<double> lengths;  // of the piece each sample stands for
+};
+
+CurveSamples sample_curves(const TriMesh& surface, const FeatureGraph& features, double step) {
+  CurveSamples samples;
+  for (const FeatureCurve& curve : features.curves) {
+    const double length = curve.length();
+    if (!(length > 0)) continue;
+    const auto count = static_cast<std::size_t>(std::ceil(length / step));
+    const double piece = length / static_cast<double>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const CurvePoint p = point_at_arc(surface, curve, (static_cast<double>(i) + 0.5) * piece);
+      samples.points.push_back(p.point);
+      samples.tangents.push_back(p.tangent);
+      samples.lengths.push_back(piece);
+    }
+  }
+  return samples;
+}
+
+using Edge = std::array<VertId, 2>;
+
+std::vector<Edge> collect_edges(const std::vector<std::array<VertId, 4>>& quads) {
+  std::vector<Edge> edges;
+  edges.reserve(4 * quads.size());
+  for (const auto& quad : quads)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto [first, second] = std::minmax(quad[k], quad[(k + 1) % 4]);
+      edges.push_back({first, second});
+    }
+  parallel_stable_sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+double distance_sq_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const double length_sq = norm_sq(b - a);
+  const double t = length_sq > 0 ? std::clamp(dot(p - a, b - a) / length_sq, 0.0, 1.0) : 0;
+  return norm_sq(p - (a + t * (b - a)));
+}
+
+Box3 inflated_box(const Vec3& a, const Vec3& b, double margin) {
+  const Vec3 m = {margin, margin, margin};
+  return {min(a, b) - m, max(a, b) + m};
+}
+
+// Length of the pieces whose sample has an edge along it within the tolerance.
+double recovered_length(const HexMesh& mesh, const std::vector<Edge>& edges,
+                        const CurveSamples& samples, double tolerance) {
+  const PointTree tree(samples.points);
+  std::vector<char> is_recovered(samples.points.size(), 0);
+  parallel_for(
+      edges.size(),
+      [&](std::size_t e) {
+        const Vec3& a = mesh.positions[edges[e][0]];
+        const Vec3& b = mesh.positions[edges[e][1]];
+        const Vec3 direction = normalized(b - a);
+        tree.visit_box(inflated_box(a, b, tolerance), [&](std::size_t i) {
+          if (std::abs(dot(direction, samples.tangents[i])) >= kMinCosine &&
+              distance_sq_to_segment(samples.points[i], a, b) <= tolerance * tolerance)
+            std::atomic_ref(is_recovered[i]).store(1, std::memory_order_relaxed);
+        });
+      },
+      256);
+  double length = 0;
+  for (std::size_t i = 0; i < is_recovered.size(); ++i)
+    if (is_recovered[i]) length += samples.lengths[i];
+  return length;
+}
+
+std::size_t count_recovered_corners(const HexMesh& mesh, const std::vector<Edge>& edges,
+                                    const std::vector<Vec3>& corners, double tolerance) {
+  std::vector<VertId> verts;
+  for (const Edge& edge : edges) verts.insert(verts.end(), edge.begin(), edge.end());
+  std::sort(verts.begin(), verts.end());
+  verts.erase(std::unique(verts.begin(), verts.end()), verts.end());
+  std::vector<Vec3> points;
+  for (VertId v : verts) points.push_back(mesh.positions[v]);
+  const PointTree tree(std::move(points));
+  std::size_t count = 0;
+  for (const Vec3& corner : corners) {
+    bool is_near = false;
+    tree.visit_box(inflated_box(corner, corner, tolerance), [&](std::size_t i) {
+      is_near = is_near || norm_sq(tree.points()[i] - corner) <= tolerance * tolerance;
+    });
+    if (is_near) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
+                                 const FeatureGraph& features, const JudgeOptions& options) {
+  FeatureRecovery result;
+  result.total_length = features.total_length();
+  result.num_corners = features.corners.size();
+  if (features.empty()) return result;
+  const double diagonal = bounding_box(surface).diagonal();
+  const auto edges = collect_edges(collect_judged_quads(mesh, options.distance.quads));
+  if (result.total_length > 0) {
+    const double tolerance = options.edge_tolerance * diagonal;
+    const CurveSamples samples = sample_curves(surface, features, tolerance);
+    const double length = recovered_length(mesh, edges, samples, tolerance);
+    result.length_share = std::min(1.0, length / result.total_length);
+  }
+  std::vector<Vec3> corners;
+  for (VertId v : features.corners) corners.push_back(surface.positions[v]);
+  result.num_corners_recovered =
+      count_recovered_corners(mesh, edges, corners, options.corner_tolerance * diagonal);
+  return result;
+}
+
+}  // namespace hexwright

@@ -1,0 +1,87 @@
+// Runs every check on a hex mesh and says in sentences what is wrong with it.
+#include "hexwright/quality/judge.h"
+
+#include <fmt/format.h>
+
+namespace hexwright {
+namespace {
+
+void require_sound_arrays(const HexMesh& mesh) {
+  if (const auto issue = mesh.find_problem())
+    throw Error(ErrorCode::BadArgument, issue->message + "; repair the mesh's arrays first");
+}
+
+void add_quality_findings(Verdict& verdict) {
+  const QualitySummary& q = verdict.quality;
+  if (q.num_inverted > 0)
+    verdict.failures.push_back(fmt::format(
+        "{} hex(es) are inverted or flat; the worst is hex {} with a scaled Jacobian of "
+        "{:.4g}",
+        q.num_inverted, q.worst_hex.value(), q.min_scaled_jacobian));
+  if (q.num_not_positive > q.num_inverted)
+    verdict.warnings.push_back(
+        fmt::format("{} hex(es) have positive corners but a Jacobian that is not positive inside",
+                    q.num_not_positive - q.num_inverted));
+  if (q.num_undecided > 0)
+    verdict.warnings.push_back(fmt::format(
+        "{} hex(es) could not be proven to have a positive Jacobian inside", q.num_undecided));
+}
+
+Verdict judge_mesh(const HexMesh& mesh, const Context& context) {
+  require_sound_arrays(mesh);
+  Verdict verdict;
+  if (mesh.num_hexes() == 0) verdict.failures.push_back("the mesh has no hexes");
+  context.progress("check", 0);
+  verdict.topology = check_topology(mesh);
+  verdict.failures.insert(verdict.failures.end(), verdict.topology.problems.begin(),
+                          verdict.topology.problems.end());
+  context.check_cancelled();
+  context.progress("check", 0.3);
+  verdict.quality = summarize_quality(mesh);
+  add_quality_findings(verdict);
+  return verdict;
+}
+
+// Components and genus of the boundary beside those of the surface, where both are defined.
+void compare_topology(Verdict& verdict, const JudgeOptions& options) {
+  if (options.distance.quads != JudgedQuads::Boundary) return;
+  if (!verdict.surface->is_closed_manifold()) {
+    verdict.warnings.push_back(
+        "the surface is not a closed manifold: its components and genus were not compared");
+    return;
+  }
+  const std::size_t components = verdict.topology.num_boundary_components;
+  if (components != verdict.surface->num_components)
+    verdict.warnings.push_back(
+        fmt::format("the mesh's boundary has {} component(s), the surface {}", components,
+                    verdict.surface->num_components));
+  if (verdict.topology.genus() != verdict.surface->genus())
+    verdict.warnings.push_back(fmt::format("the mesh's boundary has genus {}, the surface {}",
+                                           verdict.topology.genus(), verdict.surface->genus()));
+}
+
+}  // namespace
+
+Verdict judge(const HexMesh& mesh, const JudgeOptions&, const Context& context) {
+  Verdict verdict = judge_mesh(mesh, context);
+  context.progress("check", 1);
+  return verdict;
+}
+
+Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOptions& options,
+              const Context& context) {
+  Verdict verdict = judge_mesh(mesh, context);
+  context.check_cancelled();
+  context.progress("check", 0.5);
+  verdict.surface = compute_topology(surface.surface());
+  compare_topology(verdict, options);
+  verdict.distance = measure_distance(mesh, surface, options.distance);
+  context.check_cancelled();
+  context.progress("check", 0.9);
+  const FeatureGraph features = extract_features(surface.surface(), options.features);
+  verdict.features = measure_features(mesh, surface.surface(), features, options);
+  context.progress("check", 1);
+  return verdict;
+}
+
+}  // namespace hexwright

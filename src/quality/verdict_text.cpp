@@ -1,0 +1,113 @@
+// The human-readable report of a verdict.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "hexwright/quality/verdict_json.h"
+
+namespace hexwright {
+namespace {
+
+constexpr std::size_t kBarWidth = 40;
+
+// 1234567 as "1,234,567", in any locale.
+std::string grouped(std::size_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return grouped(count) + " " + (count == 1 ? one : many);
+}
+
+std::string line(const char* label, const std::string& text) {
+  return fmt::format("  {:<10} {}\n", label, text);
+}
+
+std::string topology_lines(const TopologyReport& t) {
+  std::string text =
+      line("mesh", fmt::format("{}, {}, {}", counted(t.num_hexes, "hex", "hexes"),
+                               counted(t.num_verts, "vertex", "vertices"),
+                               counted(t.num_boundary_quads, "boundary quad", "boundary quads")));
+  std::string shape =
+      fmt::format("{}, {}", counted(t.num_components, "component", "components"),
+                  counted(t.num_boundary_components, "boundary surface", "boundary surfaces"));
+  if (t.is_valid()) shape += fmt::format(", genus {}; conforming and manifold", t.genus());
+  return text + line("topology", shape);
+}
+
+std::string quality_lines(const QualitySummary& q) {
+  if (q.num_hexes == 0) return {};
+  std::string text = line(
+      "quality", fmt::format("scaled Jacobian: least {:.4f} (hex {}), average {:.4f}",
+                             q.min_scaled_jacobian, q.worst_hex.value(), q.avg_scaled_jacobian));
+  const std::size_t num_unproven = q.num_not_positive + q.num_undecided;
+  text +=
+      line("", num_unproven == 0
+                   ? "0 inverted; the Jacobian is proven positive inside every hex"
+                   : fmt::format("{} inverted; the Jacobian is not proven positive inside {}",
+                                 grouped(q.num_inverted), counted(num_unproven, "hex", "hexes")));
+  return text + line("volume", fmt::format("{:.6g}", q.total_volume));
+}
+
+std::string distance_lines(const SurfaceDistance& d) {
+  return line("distance", fmt::format("largest {:.4f} %, mean {:.4f} % of the diagonal",
+                                      100 * d.max_two_way(), 100 * d.mean_two_way())) +
+         line("", fmt::format("surface to mesh {:.4f} % ({:.4f} %), mesh to surface {:.4f} % "
+                              "({:.4f} %)",
+                              100 * d.max_to_mesh, 100 * d.mean_to_mesh, 100 * d.max_to_surface,
+                              100 * d.mean_to_surface));
+}
+
+std::string feature_lines(const FeatureRecovery& f) {
+  if (!(f.total_length > 0) && f.num_corners == 0) return line("features", "none on the surface");
+  return line("features",
+              fmt::format("{:.2f} % of their length, {} of {} corners", 100 * f.length_share,
+                          grouped(f.num_corners_recovered), grouped(f.num_corners)));
+}
+
+// One bar per bin, from the best down to the worst that is not empty.
+std::string histogram_lines(const QualitySummary& q) {
+  if (q.num_hexes == 0) return {};
+  const auto& counts = q.histogram;
+  const std::size_t longest = *std::max_element(counts.begin(), counts.end());
+  std::size_t lowest = 0;
+  while (counts[lowest] == 0) ++lowest;
+  std::string text = "\n  scaled Jacobian\n";
+  for (std::size_t i = counts.size(); i-- > lowest;) {
+    const double from = (static_cast<double>(i) - 10) / 10;
+    const double share = static_cast<double>(counts[i]) / static_cast<double>(longest);
+    const auto filled = static_cast<std::size_t>(std::ceil(share * kBarWidth));
+    text += fmt::format("  {:>4.1f} ..{:>4.1f} |{:<{}}| {:>9}  {:5.1f} %\n", from, from + 0.1,
+                        std::string(filled, '#'), kBarWidth, grouped(counts[i]),
+                        100 * static_cast<double>(counts[i]) / static_cast<double>(q.num_hexes));
+  }
+  return text;
+}
+
+std::string sentences(const char* label, const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& sentence : list) text += fmt::format("  {}: {}\n", label, sentence);
+  return text;
+}
+
+}  // namespace
+
+std::string verdict_to_text(const Verdict& verdict) {
+  std::string text = verdict.is_valid() ? "VALID hex mesh\n" : "NOT A VALID hex mesh\n";
+  text += sentences("failure", verdict.failures);
+  text += sentences("warning", verdict.warnings);
+  text += topology_lines(verdict.topology);
+  text += quality_lines(verdict.quality);
+  if (verdict.distance) text += distance_lines(*verdict.distance);
+  if (verdict.features) text += feature_lines(*verdict.features);
+  return text + histogram_lines(verdict.quality);
+}
+
+}  // namespace hexwright

@@ -1,0 +1,160 @@
+#include "hexwright/quality/judge.h"
+
+#include <nlohmann/json.hpp>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/quality/verdict_json.h"
+
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+// The unit cube as n^3 hexes.
+HexMesh cube_mesh(int n) {
+  HexMesh mesh = test::box_hex_mesh(n, n, n);
+  for (Vec3& p : mesh.positions) p = p / n;
+  return mesh;
+}
+
+const double kDiagonal = std::sqrt(3.0);
+
+Verdict judge_cube(const HexMesh& mesh, const JudgeOptions& options = {}) {
+  return judge(mesh, SurfaceTree(test::unit_cube_surface()), options, {});
+}
+
+TEST(Judge, ACubeIsPerfect) {
+  const Verdict verdict = judge_cube(cube_mesh(4));
+  EXPECT_TRUE(verdict.is_valid());
+  EXPECT_TRUE(verdict.warnings.empty());
+  EXPECT_LT(verdict.distance->max_two_way(), 1e-14);
+  EXPECT_NEAR(verdict.features->total_length, 12, 1e-12);
+  EXPECT_NEAR(verdict.features->length_share, 1, 1e-12);
+  EXPECT_EQ(verdict.features->num_corners, 8u);
+  EXPECT_EQ(verdict.features->num_corners_recovered, 8u);
+}
+
+TEST(Judge, WithoutASurfaceSaysNothingOfIt) {
+  const Verdict verdict = judge(cube_mesh(2), {}, {});
+  EXPECT_TRUE(verdict.is_valid());
+  EXPECT_FALSE(verdict.distance || verdict.features || verdict.surface);
+}
+
+TEST(Judge, AMovedEdgeIsALostFeature) {
+  // One edge of the cube (x = y = 0) is chamfered by half a percent of the diagonal.
+  HexMesh mesh = cube_mesh(4);
+  for (Vec3& p : mesh.positions)
+    if (p.x == 0 && p.y == 0) p.x = p.y = 0.005 * kDiagonal;
+  const Verdict verdict = judge_cube(mesh);
+  EXPECT_TRUE(verdict.is_valid());
+  // The four mesh edges that meet it leave the tolerance at a fifth of their length 1/4.
+  EXPECT_NEAR(verdict.features->length_share, (11 - 4 * 0.25 * 0.8) / 12, 0.002);
+  EXPECT_EQ(verdict.features->num_corners_recovered, 6u);
+}
+
+TEST(Judge, EdgesThatOnlyCrossACurveDoNotRecoverIt) {
+  // A staircase across the edge x = y = 0: its vertices are on the curve, its edges are not along.
+  FeatureGraph features;
+  TriMesh surface = test::unit_cube_surface();
+  FeatureCurve curve;
+  curve.verts = {VertId(0), VertId(7)};  // the cube's diagonal
+  curve.arc_length = {0, kDiagonal};
+  features.curves.push_back(curve);
+  const FeatureRecovery recovery = measure_features(cube_mesh(4), surface, features, {});
+  EXPECT_EQ(recovery.length_share, 0);  // axis-parallel edges meet the diagonal at 55 degrees
+}
+
+TEST(Judge, AnInvertedHexIsAFailure) {
+  HexMesh mesh = cube_mesh(3);
+  mesh.positions[VertId(21)] += {1.5, 0, 0};  // an inner vertex pushed out of its hexes
+  const Verdict verdict = judge(mesh, {}, {});
+  EXPECT_FALSE(verdict.is_valid());
+  EXPECT_TRUE(verdict.topology.is_valid());
+  ASSERT_EQ(verdict.failures.size(), 1u);
+  EXPECT_NE(verdict.failures[0].find("inverted"), std::string::npos);
+}
+
+TEST(Judge, ABrokenTopologyIsAFailure) {
+  HexMesh mesh = cube_mesh(2);
+  mesh.hexes.push_back(mesh.hexes[HexId(0)]);
+  EXPECT_FALSE(judge(mesh, {}, {}).is_valid());
+}
+
+TEST(Judge, NoHexesIsAFailure) { EXPECT_FALSE(judge(HexMesh{}, {}, {}).is_valid()); }
+
+TEST(Judge, AnIndexOutOfRangeIsAnError) {
+  HexMesh mesh = cube_mesh(1);
+  mesh.hexes[HexId(0)][3] = VertId(99);
+  EXPECT_THROW(judge(mesh, {}, {}), Error);
+}
+
+TEST(Judge, WarnsWhenTheGenusDiffers) {
+  // The middle column of a 3 x 3 x 1 box is missing: a ring, judged by a cube.
+  HexMesh mesh = test::box_hex_mesh(3, 3, 1);
+  for (Vec3& p : mesh.positions) p = {p.x / 3, p.y / 3, p.z};
+  IdVector<HexId, std::array<VertId, 8>> ring;
+  for (HexId h : mesh.hexes.ids())
+    if (h != HexId(4)) ring.push_back(mesh.hexes[h]);
+  mesh.hexes = ring;
+  const Verdict verdict = judge_cube(mesh);
+  EXPECT_TRUE(verdict.is_valid());
+  ASSERT_EQ(verdict.warnings.size(), 1u);
+  EXPECT_NE(verdict.warnings[0].find("genus 1"), std::string::npos);
+}
+
+// A mesh around the unit cube: the box [-1, 2]^3 without its middle.
+HexMesh outside_mesh() {
+  HexMesh mesh = test::box_hex_mesh(3, 3, 3);
+  for (Vec3& p : mesh.positions) p -= {1, 1, 1};
+  IdVector<HexId, std::array<VertId, 8>> shell;
+  for (HexId h : mesh.hexes.ids())
+    if (h != HexId(13)) shell.push_back(mesh.hexes[h]);
+  const auto middle = mesh.hexes[HexId(13)];
+  mesh.hexes = shell;
+  for (const auto& f : kHexFaces)
+    mesh.labels.quads.push_back(
+        {{middle[f[3]], middle[f[2]], middle[f[1]], middle[f[0]]}, PatchId(0)});
+  return mesh;
+}
+
+TEST(Judge, LabeledQuadsAloneStandForTheSurfaceWhenAsked) {
+  JudgeOptions options;
+  EXPECT_GT(judge_cube(outside_mesh(), options).distance->max_to_surface, 0.5);
+  options.distance.quads = JudgedQuads::Labeled;
+  const Verdict verdict = judge_cube(outside_mesh(), options);
+  EXPECT_LT(verdict.distance->max_two_way(), 1e-14);
+  EXPECT_NEAR(verdict.features->length_share, 1, 1e-12);
+  EXPECT_TRUE(verdict.warnings.empty());
+}
+
+TEST(VerdictJson, HoldsTheNumbers) {
+  const auto json = nlohmann::json::parse(verdict_to_json(judge_cube(cube_mesh(2))));
+  EXPECT_TRUE(json["valid"].get<bool>());
+  EXPECT_EQ(json["topology"]["hexes"], 8);
+  EXPECT_EQ(json["topology"]["genus"], 0);
+  EXPECT_EQ(json["quality"]["histogram"]["counts"][19], 8);
+  EXPECT_EQ(json["features"]["corners_recovered"], 8);
+  EXPECT_TRUE(json["surface"]["closed_manifold"].get<bool>());
+}
+
+TEST(VerdictJson, InfinityIsNull) {
+  const auto json = nlohmann::json::parse(verdict_to_json(judge_cube(HexMesh{})));
+  EXPECT_FALSE(json["valid"].get<bool>());
+  EXPECT_TRUE(json["distance"]["max"].is_null());
+  EXPECT_TRUE(json["quality"]["worst_hex"].is_null());
+}
+
+TEST(VerdictText, SaysWhatTheVerdictHolds) {
+  HexMesh mesh = test::box_hex_mesh(12, 10, 10);
+  std::string text = verdict_to_text(judge(mesh, {}, {}));
+  EXPECT_EQ(text.rfind("VALID", 0), 0u);
+  EXPECT_NE(text.find("1,200 hexes"), std::string::npos);
+  EXPECT_NE(text.find("0 inverted"), std::string::npos);
+  std::swap(mesh.hexes[HexId(3)][0], mesh.hexes[HexId(3)][6]);
+  text = verdict_to_text(judge(mesh, {}, {}));
+  EXPECT_EQ(text.rfind("NOT A VALID", 0), 0u);
+  EXPECT_NE(text.find("failure: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hexwright
