@@ -12,6 +12,11 @@ namespace hexwright {
 namespace io {
 namespace {
 
+VolumeFile read_volume_file(const std::filesystem::path& path) {
+  const FileBytes file = read_file(path);
+  return read_volume_bytes({file.bytes, file.name}, lower_extension(path));
+}
+
 std::string count_of(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
@@ -42,20 +47,16 @@ void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
 
 }  // namespace
 
-VolumeFile read_volume_file(const std::filesystem::path& path) {
-  const FileBytes file = read_file(path);
-  const VolumeSource source = {file.bytes, file.name};
-  if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; export it again");
-  const std::string_view bytes = file.bytes;
+VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension) {
+  const std::string_view bytes = source.bytes;
+  if (bytes.empty()) throw bad_file(source.name, "the file is empty; export it again");
   if (bytes.starts_with("# vtk DataFile")) return read_vtk_legacy(source);
-  const std::string_view first = TextScanner(bytes, file.name).token();
+  const std::string_view first = TextScanner(bytes, source.name).token();
   if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(source);
-  if (first == "MeshVersionFormatted") return read_medit(source);
-  const std::string extension = lower_extension(path);
-  if (extension == ".mesh") return read_medit(source);
+  if (first == "MeshVersionFormatted" || extension == ".mesh") return read_medit(source);
   if (extension == ".vtk") return read_vtk_legacy(source);
   if (extension == ".vtu") return read_vtu(source);
-  throw bad_file(file.name,
+  throw bad_file(source.name,
                  "neither the content nor the extension is that of a known volume mesh format; "
                  "give a MEDIT .mesh, legacy .vtk or .vtu file");
 }

@@ -50,6 +50,11 @@ bool TextScanner::skip_in_line() {
   return false;
 }
 
+char TextScanner::peek_char_in_line() {
+  while (at_ < end_ && is_blank(*at_)) ++at_;
+  return at_ < end_ ? *at_ : '\n';
+}
+
 std::string_view TextScanner::line_token() {
   if (!skip_in_line()) return {};
   const char* first = at_;

@@ -24,7 +24,12 @@ class TextScanner {
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
   bool is_at_end() const { return at_ == end_; }
 
+  /// For text cut out of a file: the line it stands on there.
+  void set_line(std::size_t line) { line_ = line; }
+
   // Within a line
+  /// The first byte of this line that is not blank, '\n' when there is none.
+  char peek_char_in_line();
   /// Next token of this line, empty when there is none left.
   std::string_view line_token();
   /// The rest of this line without its end; moves to the start of the next line.

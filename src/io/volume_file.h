@@ -34,7 +34,7 @@ VolumeFile read_medit(const VolumeSource& source);
 VolumeFile read_vtk_legacy(const VolumeSource& source);
 VolumeFile read_vtu(const VolumeSource& source);
 /// Finds the format by content, then by extension.
-VolumeFile read_volume_file(const std::filesystem::path& path);
+VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension);
 
 std::string medit_text(const HexMesh& mesh);
 std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options);

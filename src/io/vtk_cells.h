@@ -60,5 +60,6 @@ struct VtkOutput {
   std::vector<VtkOutArray> field_data;
 };
 VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options);
+std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data);
 
 }  // namespace hexwright::io

@@ -93,6 +93,7 @@ class VtkLegacyReader {
       is_point_data_ = !is_cell_data_;
       num_data_ = scanner_.count("the number of values");
     } else if (keyword == "METADATA") {
+      scanner_.next_line();  // ends at an empty line
       while (scanner_.bytes_left() > 0 && !is_empty(scanner_.rest_of_line())) {
       }
     } else {

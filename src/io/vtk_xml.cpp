@@ -137,7 +137,8 @@ std::vector<double> VtkXmlFile::values(const pugi::xml_node& array) const {
   throw Error(ErrorCode::BadFile, "unknown number type " + in_quotes(type_name), where);
 }
 
-VtkXmlWriter::VtkXmlWriter(const std::string& type) : type_(type) {}
+VtkXmlWriter::VtkXmlWriter(const std::string& type, const std::string& version)
+    : type_(type), version_(version) {}
 
 void VtkXmlWriter::array(const VtkOutArray& array, Kind kind) {
   const std::size_t count = array.is_int ? array.ints.size() : array.reals.size();
@@ -162,8 +163,9 @@ void VtkXmlWriter::array_bytes(const std::string& name, const char* type,
 }
 
 std::string VtkXmlWriter::take() {
-  std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type_ +
-                    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+  std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type_ + "\" version=\"" +
+                    version_ +
+                    "\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
                     "compressor=\"vtkZLibDataCompressor\">\n";
   out += xml_;
   out += "<AppendedData encoding=\"raw\">\n_";

@@ -44,7 +44,7 @@ class VtkXmlWriter {
  public:
   enum class Kind { Data, Field };  ///< field arrays also state their number of tuples
 
-  explicit VtkXmlWriter(const std::string& type);
+  explicit VtkXmlWriter(const std::string& type, const std::string& version = "1.0");
 
   void open(const std::string& tag) { xml_ += "<" + tag + ">\n"; }
   void close(const std::string& tag) { xml_ += "</" + tag + ">\n"; }
@@ -67,6 +67,7 @@ class VtkXmlWriter {
                    std::string_view bytes, const std::string& more_attributes);
 
   std::string type_;
+  std::string version_;
   std::string xml_;
   std::string appended_;
 };

@@ -94,13 +94,16 @@ VolumeFile read_vtu(const VolumeSource& source) {
 }
 
 std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options) {
-  const VtkOutput data = make_vtk_output(mesh, options);
+  return vtu_bytes(mesh.positions, make_vtk_output(mesh, options));
+}
+
+std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data) {
   VtkXmlWriter xml("UnstructuredGrid");
   xml.open("UnstructuredGrid");
   xml.open("FieldData");
   for (const VtkOutArray& array : data.field_data) xml.array(array, VtkXmlWriter::Kind::Field);
   xml.close("FieldData");
-  xml.open("Piece NumberOfPoints=\"" + std::to_string(mesh.num_verts()) + "\" NumberOfCells=\"" +
+  xml.open("Piece NumberOfPoints=\"" + std::to_string(positions.size()) + "\" NumberOfCells=\"" +
            std::to_string(data.types.size()) + "\"");
   xml.open("PointData");
   for (const VtkOutArray& array : data.point_data) xml.array(array, VtkXmlWriter::Kind::Data);
@@ -109,7 +112,7 @@ std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options) {
   for (const VtkOutArray& array : data.cell_data) xml.array(array, VtkXmlWriter::Kind::Data);
   xml.close("CellData");
   xml.open("Points");
-  xml.array<Vec3>("Points", "Float64", 3, mesh.positions.raw());
+  xml.array<Vec3>("Points", "Float64", 3, positions.raw());
   xml.close("Points");
   xml.open("Cells");
   xml.array<std::int32_t>("connectivity", "Int32", 1, data.connectivity);
