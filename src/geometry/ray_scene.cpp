@@ -3,10 +3,9 @@
 #include <cstring>
 #include <numbers>
 
-#include <embree3/rtcore.h>
-
 #include "hexwright/base/error.h"
 
+#include "geometry/embree.h"
 #include "geometry/triangle_math.h"
 
 namespace hexwright {
@@ -85,8 +84,6 @@ const Similarity& RayScene::frame() const { return impl_->frame; }
 
 std::optional<RayHit> RayScene::first_wall(const Vec3& from, TriId source,
                                            const Vec3& direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   float near = 0;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     RTCRayHit query{};
@@ -100,7 +97,7 @@ std::optional<RayHit> RayScene::first_wall(const Vec3& from, TriId source,
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(impl_->scene, &context, &query);
+    intersect_first(impl_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const TriId tri(query.hit.primID);
     const double length = static_cast<double>(query.ray.tfar);
