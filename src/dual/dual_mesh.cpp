@@ -5,6 +5,7 @@
 
 #include "dual/base_mesh.h"
 #include "dual/core_planes.h"
+#include "dual/optimize.h"
 #include "dual/pillow_stack.h"
 #include "dual/positions.h"
 #include "dual/quality_of_hex.h"
@@ -70,23 +71,26 @@ HexComplex build_complex_of_any(const Grid& grid, const DualOptions& options,
   return complex;
 }
 
-// Half cells at the border have a face on it.
-void drop_border_hexes(const HexComplex& complex, HexMesh& mesh) {
+// Half cells at the border have a face on it. What is left ends at cell centres, which stay.
+void drop_border_hexes(const HexComplex& complex, HexMesh& mesh, VertToHex& vert_to_hex,
+                       FixedAxes& fixed_axes) {
   IdVector<HexId, std::array<VertId, 8>> kept;
+  std::vector<char> is_dropped_vert(mesh.num_verts(), 0);
   for (HexId h : mesh.hexes.ids()) {
     bool is_border = false;
     for (const FaceLink& link : complex.links[h]) is_border |= link.is_plane();
     if (!is_border) kept.push_back(mesh.hexes[h]);
+    for (VertId v : mesh.hexes[h]) is_dropped_vert[v.index()] |= static_cast<char>(is_border);
   }
   mesh.hexes = std::move(kept);
+  std::vector<char> is_used(mesh.num_verts(), 0);
+  for (const auto& hex : mesh.hexes)
+    for (VertId v : hex) is_used[v.index()] = 1;
+  fixed_axes.clear();
+  for (std::size_t v = 0; v < is_used.size(); ++v)
+    if (is_used[v]) fixed_axes.push_back(is_dropped_vert[v] ? 7 : 0);
   remove_unused_verts(mesh);
-}
-
-void measure_raw(const HexMesh& mesh, DualReport& report) {
-  const auto quality = measure_quality(mesh);
-  report.num_inverted_raw = quality.num_inverted;
-  report.min_scaled_jacobian_raw = report.min_scaled_jacobian = quality.min;
-  report.avg_scaled_jacobian = quality.avg;
+  vert_to_hex = VertToHex(mesh);
 }
 
 void to_world(const Grid& grid, HexMesh& mesh) {
@@ -100,20 +104,29 @@ void to_world(const Grid& grid, HexMesh& mesh) {
 }  // namespace
 
 DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context) {
-  Grid used_grid;
-  HexComplex complex = build_complex_of_any(grid, options, context, used_grid);
   DualResult result;
   HexMesh& mesh = result.mesh;
-  for (const HexPlace& place : complex.places) result.report.num_cap_hexes += !place.is_lattice();
-  mesh.positions.resize(static_cast<std::size_t>(complex.num_verts));
-  mesh.hexes = std::move(complex.verts);
-  const VertToHex vert_to_hex(mesh);
-  place_verts(Domain(used_grid), complex, vert_to_hex, mesh);
-
-  if (options.inset) drop_border_hexes(complex, mesh);
-  measure_raw(mesh, result.report);
+  Grid used_grid;
+  VertToHex vert_to_hex;
+  FixedAxes fixed_axes;
+  {
+    HexComplex complex = build_complex_of_any(grid, options, context, used_grid);
+    for (const HexPlace& p : complex.places) result.report.num_cap_hexes += !p.is_lattice();
+    mesh.positions.resize(static_cast<std::size_t>(complex.num_verts));
+    mesh.hexes = std::move(complex.verts);
+    vert_to_hex = VertToHex(mesh);
+    fixed_axes = place_verts(Domain(used_grid), complex, vert_to_hex, mesh);
+    if (options.inset) drop_border_hexes(complex, mesh, vert_to_hex, fixed_axes);
+  }
+  const MeshQuality raw = measure_quality(mesh);
+  if (options.optimize) optimize_positions(mesh, vert_to_hex, fixed_axes, context);
+  const MeshQuality final = options.optimize ? measure_quality(mesh) : raw;
   to_world(used_grid, mesh);
   result.report.num_hexes = mesh.num_hexes();
+  result.report.num_inverted_raw = raw.num_inverted;
+  result.report.min_scaled_jacobian_raw = raw.min;
+  result.report.min_scaled_jacobian = final.min;
+  result.report.avg_scaled_jacobian = final.avg;
   return result;
 }
 

@@ -1,0 +1,159 @@
+// Based on: Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov, "Foldover-free maps in 50 lines
+// of code", ACM TOG 40(4), 2021 (regularised determinants, decreased until nothing is inverted).
+// Differs: solved vertex by vertex with Newton steps, and only around bad hexes.
+#include "dual/optimize.h"
+
+#include <algorithm>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/mesh/vertex_newton.h"
+
+#include "dual/quality_of_hex.h"
+
+namespace hexwright::dual {
+
+namespace {
+
+// One way of improving what is bad: hexes whose scaled Jacobian is below `goal`.
+struct Pass {
+  double goal;
+  int num_rounds;  // each: collect the bad hexes, then a few sweeps over their vertices
+  int num_rings;   // layers of hexes around them that move along
+  ShapeEnergy shape;
+};
+
+// Ever higher powers, so that the worst corners dominate at the end.
+constexpr Pass kImprovePasses[] = {
+    {0.5, 3, 2, {0.5, 2, 0}},
+    {0.45, 6, 2, {0.9, 4, 0}},
+    {0.42, 6, 3, {0.9, 8, 0}},
+};
+
+class PositionOptimizer {
+ public:
+  PositionOptimizer(HexMesh& mesh, const VertToHex& vert_to_hex, const FixedAxes& fixed_axes)
+      : mesh_(mesh),
+        stars_(mesh, vert_to_hex),
+        colors_(mesh, vert_to_hex),
+        goals_(mesh.num_verts()),
+        quality_(mesh.num_hexes()) {
+    parallel_for(mesh.num_verts(), [&](std::size_t v) {
+      goals_[VertId(v)] = goal_of(VertId(v), fixed_axes[VertId(v)]);
+    });
+    measure();
+  }
+
+  // Repeats regularised sweeps around hexes that are inverted or nearly so, with less and less
+  // regularisation and wider and wider surroundings.
+  void untangle(const Context& context) {
+    constexpr double kClearlyPositive = 0.02;
+    constexpr int kMaxRounds = 40;
+    double untangle = 0.3;  // in units of the local edge cubed
+    for (int round = 0; round < kMaxRounds; ++round) {
+      context.check_cancelled();
+      if (!activate(kClearlyPositive, 2 + round / 6)) return;
+      for (int k = 0; k < kSweepsPerRound; ++k) sweep({0, 1, untangle});
+      measure();
+      untangle = std::max(0.7 * untangle, 0.01);
+    }
+  }
+
+  void improve(const Pass& pass, const Context& context) {
+    for (int round = 0; round < pass.num_rounds; ++round) {
+      context.check_cancelled();
+      if (!activate(pass.goal, pass.num_rings)) return;
+      for (int k = 0; k < kSweepsPerRound; ++k) sweep(pass.shape);
+      measure();
+    }
+  }
+
+ private:
+  static constexpr int kSweepsPerRound = 3;
+
+  VertexGoal goal_of(VertId v, int fixed_axes) const {
+    VertexGoal goal;
+    goal.max_step = 0.5 * mean_edge(v);
+    if (fixed_axes == 7) goal.move = MoveIn::Point;
+    for (int a = 0; a < 3; ++a) {
+      const bool is_plane = fixed_axes == 1 << a, is_line = fixed_axes == (7 ^ 1 << a);
+      if (!is_plane && !is_line) continue;
+      goal.move = is_plane ? MoveIn::Plane : MoveIn::Line;
+      goal.axis[a] = 1;
+    }
+    return goal;
+  }
+
+  double mean_edge(VertId v) const {
+    double sum = 0;
+    for (const HexStar& star : stars_[v])
+      for (int k = 0; k < 3; ++k) sum += distance(mesh_.positions[v], mesh_.positions[star[k]]);
+    return sum / std::max(1.0, 3.0 * static_cast<double>(stars_[v].size()));
+  }
+
+  void measure() {
+    parallel_for(mesh_.num_hexes(),
+                 [&](std::size_t h) { quality_[HexId(h)] = scaled_jacobian(mesh_, HexId(h)); });
+  }
+
+  // Collects, by colour, the vertices of the hexes below `goal` and of `num_rings - 1` layers of
+  // hexes around them. False when there is no such hex.
+  bool activate(double goal, int num_rings) {
+    std::vector<char> is_active(mesh_.num_verts(), 0);
+    bool has_bad = false;
+    for (HexId h : mesh_.hexes.ids()) {
+      if (quality_[h] >= goal) continue;
+      has_bad = true;
+      for (VertId v : mesh_.hexes[h]) is_active[v.index()] = 1;
+    }
+    if (!has_bad) return false;
+    for (int ring = 1; ring < num_rings; ++ring) grow(is_active);
+    active_.assign(colors_.num_colors(), {});
+    for (std::size_t c = 0; c < colors_.num_colors(); ++c)
+      for (VertId v : colors_[c])
+        if (is_active[v.index()]) active_[c].push_back(v);
+    return true;
+  }
+
+  void grow(std::vector<char>& is_active) const {
+    const auto before = is_active;
+    for (const auto& hex : mesh_.hexes) {
+      bool touches = false;
+      for (VertId v : hex) touches |= before[v.index()] != 0;
+      if (!touches) continue;
+      for (VertId v : hex) is_active[v.index()] = 1;
+    }
+  }
+
+  void sweep(const ShapeEnergy& shape) {
+    const IdSpan<VertId, Vec3> positions(mesh_.positions);
+    for (const auto& verts : active_)
+      parallel_chunks(verts.size(), 256, [&](std::size_t begin, std::size_t end) {
+        VertexNewton newton;
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertId v = verts[i];
+          const double edge = 2 * goals_[v].max_step;
+          ShapeEnergy scaled = shape;
+          scaled.untangle *= edge * edge * edge;
+          newton.solve(v, stars_[v], goals_[v], scaled, positions);
+        }
+      });
+  }
+
+  HexMesh& mesh_;
+  VertexStars stars_;
+  VertexColors colors_;
+  IdVector<VertId, VertexGoal> goals_;
+  IdVector<HexId, double> quality_;
+  std::vector<std::vector<VertId>> active_;  // per colour
+};
+
+}  // namespace
+
+void optimize_positions(HexMesh& mesh, const VertToHex& vert_to_hex, const FixedAxes& fixed_axes,
+                        const Context& context) {
+  PositionOptimizer optimizer(mesh, vert_to_hex, fixed_axes);
+  optimizer.untangle(context);
+  for (const Pass& pass : kImprovePasses) optimizer.improve(pass, context);
+}
+
+}  // namespace hexwright::dual

@@ -1,0 +1,16 @@
+// Moves vertices until no hex is inverted and bad corners are few; boundary vertices slide in the
+// domain's faces.
+#pragma once
+
+#include "hexwright/base/context.h"
+
+#include "dual/positions.h"
+
+namespace hexwright::dual {
+
+/// Untangles the mesh, then raises its least scaled Jacobians. Only vertices near bad hexes move.
+/// Deterministic for any number of threads.
+void optimize_positions(HexMesh& mesh, const VertToHex& vert_to_hex, const FixedAxes& fixed_axes,
+                        const Context& context);
+
+}  // namespace hexwright::dual
