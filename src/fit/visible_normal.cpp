@@ -26,8 +26,8 @@ VisibleDirection find_visible_direction(std::span<const Vec3> normals, double en
   best.direction = norm(sum) < 1e-9 ? normals[0] : normalized(sum);
   best.cosine = least_dot(normals, best.direction).value;
   // z runs towards the hull's point nearest to the origin: at each step the best point of the
-  // segment from z to the normal that z sees worst.
-  Vec3 z = best.direction * std::max(0.05, best.cosine);
+  // segment from z to the normal that z sees worst. It starts and stays in the hull.
+  Vec3 z = sum / static_cast<double>(normals.size());
   for (int step = 0; step < 40 && best.cosine < enough; ++step) {
     const Vec3 e = normals[least_dot(normals, z).index] - z;
     const double length_sq = norm_sq(e);

@@ -6,7 +6,7 @@
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "boundary_fixtures.h"
-#include "fit/sheet_check.h"
+#include "fit/set_check.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -45,12 +45,10 @@ SetSheet sheet_around(const HexMesh& mesh, const std::vector<char>& is_in, bool 
       result.sheet.behind.push_back(h);
     }
   result.sheet.verts = sheet_verts(result.sheet.quads);
-  const SheetCheck check{mesh, vert_to_hex, neighbors, 0.02, with_boundary};
+  SetCheck check(mesh, vert_to_hex, neighbors, with_boundary);
   for (VertId v : result.sheet.verts) {
-    const VertCheck c = check.check(v, is_in);
-    EXPECT_TRUE(c.is_on_surface);
-    result.is_good &= c.verdict == VertVerdict::Good;
-    result.sheet.directions.push_back(c.visible.direction);
+    result.is_good &= check.check(v, is_in, 0.02) == SetFault::None;
+    result.sheet.directions.push_back(check.direction(v, is_in).direction);
   }
   return result;
 }
@@ -118,25 +116,24 @@ TEST(InsertSheet, RefusesADirectionThatSeesNothing) {
   EXPECT_EQ(mesh.positions, before.positions);
 }
 
-TEST(SheetCheck, FindsContactsByEdgeAndByVertex) {
+TEST(SetCheck, FindsContactsByEdgeAndByVertex) {
   const HexMesh mesh = test::box_hex_mesh(2, 2, 2);
   const VertToHex vert_to_hex(mesh);
   const HexNeighbors neighbors = compute_hex_neighbors(mesh);
-  const SheetCheck check{mesh, vert_to_hex, neighbors, 0.1, true};
+  SetCheck check(mesh, vert_to_hex, neighbors, true);
   const VertId center(13);
-  const auto verdict = [&](std::vector<char> set) { return check.check(center, set).verdict; };
-  EXPECT_EQ(verdict({1, 1, 1, 1, 0, 0, 0, 0}), VertVerdict::Good);
-  EXPECT_EQ(verdict({1, 0, 0, 1, 0, 0, 0, 0}), VertVerdict::NotManifold);  // edge contact
-  EXPECT_EQ(verdict({1, 0, 0, 0, 0, 0, 0, 1}), VertVerdict::NotManifold);  // vertex contact
-  EXPECT_EQ(verdict({0, 1, 1, 1, 1, 1, 1, 0}), VertVerdict::NotManifold);  // the same outside
-  EXPECT_EQ(verdict({0, 0, 0, 0, 0, 0, 0, 0}), VertVerdict::Good);
-  EXPECT_FALSE(check.check(center, std::vector<char>(8, 1)).is_on_surface);
-  EXPECT_TRUE(check.check(VertId(0), std::vector<char>(8, 1)).is_on_surface);
+  const auto verdict = [&](const std::vector<char>& set) { return check.check(center, set, 0.1); };
+  EXPECT_EQ(verdict({1, 1, 1, 1, 0, 0, 0, 0}), SetFault::None);
+  EXPECT_EQ(verdict({1, 0, 0, 1, 0, 0, 0, 0}), SetFault::NonManifold);  // edge contact
+  EXPECT_EQ(verdict({1, 0, 0, 0, 0, 0, 0, 1}), SetFault::NonManifold);  // vertex contact
+  EXPECT_EQ(verdict({0, 1, 1, 1, 1, 1, 1, 0}), SetFault::NonManifold);  // the same outside
+  EXPECT_EQ(verdict({0, 0, 0, 0, 0, 0, 0, 0}), SetFault::None);
+  EXPECT_EQ(verdict(std::vector<char>(8, 1)), SetFault::None);
   // Three hexes in a row around the centre: manifold, but two faces look at each other's backs.
-  EXPECT_EQ(verdict({1, 1, 0, 1, 0, 0, 1, 0}), VertVerdict::NotManifold);
+  EXPECT_EQ(verdict({1, 1, 0, 1, 0, 0, 1, 0}), SetFault::NonManifold);
 }
 
-TEST(SheetDirection, IsTheBestOneOnRandomNormals) {
+TEST(VisibleDirection, IsTheBestOneOnRandomNormals) {
   std::mt19937 random(3);
   std::normal_distribution<double> gauss;
   const auto unit = [&] { return normalized({gauss(random), gauss(random), gauss(random)}); };
@@ -144,7 +141,7 @@ TEST(SheetDirection, IsTheBestOneOnRandomNormals) {
     std::vector<Vec3> normals;
     const Vec3 axis = unit();
     for (int k = 0; k < 6; ++k) normals.push_back(normalized(unit() + axis * 0.9));
-    const SheetDirection best = find_sheet_direction(normals);
+    const VisibleDirection best = find_visible_direction(normals);
     EXPECT_NEAR(norm(best.direction), 1, 1e-12);
     double sampled = -1;
     for (int k = 0; k < 3000; ++k) {
