@@ -91,6 +91,48 @@ void restore_regions(const FitState& state, std::vector<QuadLabel> labels, Featu
   }
 }
 
+namespace {
+
+std::optional<Issue> find_edge_problem(const FitState& state, const FeatureMarks& marks,
+                                       const BoundaryGraph& graph) {
+  IdVector<VertId, int> num_passes(state.num_verts(), 0);
+  for (const LabeledEdge& edge : marks.edges) {
+    if (!graph.find_edge(edge.verts[0], edge.verts[1]).is_valid())
+      return Issue{"a marked edge is not on the boundary"};
+    for (VertId v : edge.verts) {
+      if (state.kind[v] != VertKind::Curve && state.kind[v] != VertKind::Corner)
+        return Issue{"a marked edge ends off the curves"};
+      if (state.kind[v] == VertKind::Curve && state.curve[v] != edge.curve)
+        return Issue{"a marked edge belongs to another curve than its vertex"};
+      ++num_passes[v];
+    }
+  }
+  for (VertId v : state.kind.ids()) {
+    if (state.kind[v] == VertKind::Curve && num_passes[v] != 2)
+      return Issue{"a curve does not pass its vertex once"};
+    if (state.kind[v] == VertKind::Corner && num_passes[v] == 0)
+      return Issue{"no curve ends at a corner"};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Issue> find_problem(const FitState& state, const FeatureMarks& marks) {
+  const BoundaryGraph graph(state.num_verts(), boundary_view(state).quads);
+  if (marks.quad_to_region.size() != state.quads.size()) return Issue{"regions do not match quads"};
+  for (RegionId r : marks.quad_to_region)
+    if (!r.is_valid()) return Issue{"a quad has no region"};
+  const auto edge_to_curve = mark_edges(graph, marks.edges);
+  for (BoundaryEdgeId e : edge_to_curve.ids()) {
+    const auto& quads = graph.edge(e).quads;
+    if (graph.edge(e).num_quads == 2 && !edge_to_curve[e].is_valid() &&
+        marks.quad_to_region[quads[0]] != marks.quad_to_region[quads[1]])
+      return Issue{"regions meet at an unmarked edge"};
+  }
+  return find_edge_problem(state, marks, graph);
+}
+
 BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks) {
   BoundaryLabels labels;
   for (QuadId q : marks.quad_to_region.ids())

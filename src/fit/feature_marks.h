@@ -2,6 +2,7 @@
 // in. Kept up to date by everything that inserts layers.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fit/fit_state.h"
@@ -40,6 +41,11 @@ struct QuadLabel {
 };
 std::array<VertId, 4> sorted_verts(std::array<VertId, 4> quad);
 void restore_regions(const FitState& state, std::vector<QuadLabel> labels, FeatureMarks& marks);
+
+/// First disagreement between the marks and the mesh: a quad without a region, neighbours across an
+/// unmarked edge in different ones, a marked edge off the boundary, a curve vertex that is not
+/// passed by exactly its curve.
+std::optional<Issue> find_problem(const FitState& state, const FeatureMarks& marks);
 
 /// What users get: patch of each boundary quad, curve of each marked edge, corners.
 BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks);

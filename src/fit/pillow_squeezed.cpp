@@ -85,7 +85,8 @@ class PillowPlanner {
     for (HexId h : set.hexes) is_in_[h.index()] = 1;
     collect_faces(set);
     for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 1;
-    const bool is_good = splits_a_squeezed_vert(job) && keeps_marks(job, set) && find_directions(set);
+    const bool is_good =
+        splits_a_squeezed_vert(job) && keeps_marks(job, set) && find_directions(set);
     for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 0;
     for (HexId h : set.hexes) is_in_[h.index()] = 0;
     for (QuadId q : quads) is_selected_[q.index()] = 0;

@@ -1,0 +1,110 @@
+// Pillows under squeezed quads keep the mesh valid and the marks consistent.
+#include "fit/feature_layers.h"
+
+#include "boundary_fixtures.h"
+#include "fit/insert_layer.h"
+
+namespace hexwright::fitting {
+namespace {
+
+double min_jacobian(const HexMesh& mesh) {
+  double least = 1;
+  for (HexId h : mesh.hexes.ids()) {
+    const auto p = mesh.corners(h);
+    for (std::size_t lv = 0; lv < 8; ++lv) {
+      const auto edge = [&](std::size_t k) {
+        return p[static_cast<std::size_t>(kHexCornerNeighbors[lv][k])] - p[lv];
+      };
+      least = std::min(least, det(edge(0), edge(1), edge(2)));
+    }
+  }
+  return least;
+}
+
+std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+  if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
+  if (!(min_jacobian(state.mesh) > 0)) return "inverted";
+  const auto problem = find_problem(state, marks);
+  return problem ? problem->message : "";
+}
+
+/// A cube turned against the grid, carved, padded and mapped: its paths run in stairs, so that
+/// many quads are squeezed.
+struct TurnedCube {
+  explicit TurnedCube(double angle)
+      : surface(make_surface(angle)),
+        tree(surface),
+        state(carved(tree)),
+        features(extract_features(surface, {})) {
+    pad_boundary(state);
+    attached = attach_features(state, tree, features, {});
+  }
+  static HexMesh carved(const SurfaceTree& tree) {
+    const HexMesh grid = test::box_hex_mesh(16, 16, 16);
+    return extract_hexes(grid, carve(grid, tree, {}, {}).is_kept);
+  }
+  static TriMesh make_surface(double angle) {
+    TriMesh cube = test::unit_cube_surface();
+    test::transform(cube.positions, [&](const Vec3& p) {
+      return test::rotated((p - Vec3{.5, .5, .5}) * 8, angle) + Vec3{8, 8, 8};
+    });
+    return cube;
+  }
+  TriMesh surface;
+  SurfaceTree tree;
+  FitState state;
+  FeatureGraph features;
+  AttachedFeatures attached;
+};
+
+class Pillow : public ::testing::TestWithParam<double> {};
+
+TEST_P(Pillow, UnderWholeRegionsLeavesNoSqueezedQuad) {
+  TurnedCube c(GetParam());
+  ASSERT_EQ(problem_of(c.state, c.attached.marks), "");
+  const PillowOptions options;
+  const auto count = [&] {
+    return find_squeezed_quads(c.state, MarkedGraph(c.state, c.attached.marks),
+                               options.corner_angle)
+        .size();
+  };
+  const std::size_t squeezed = count();
+  ASSERT_GT(squeezed, 0u);
+  const std::size_t before = c.state.mesh.num_hexes();
+  const PillowReport report = pillow_squeezed_quads(c.state, c.attached.marks, options);
+  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+  EXPECT_EQ(c.state.mesh.num_hexes(), before + report.num_hexes);
+  EXPECT_GT(report.num_pillows, 0u);
+  if (report.num_skipped == 0) {
+    EXPECT_EQ(count(), 0u);
+  }
+}
+
+TEST_P(Pillow, AroundSqueezedQuadsKeepsTheMarks) {
+  TurnedCube whole(GetParam()), local(GetParam());
+  PillowOptions options;
+  const PillowReport w = pillow_squeezed_quads(whole.state, whole.attached.marks, options);
+  options.whole_regions = false;
+  const PillowReport l = pillow_squeezed_quads(local.state, local.attached.marks, options);
+  EXPECT_EQ(problem_of(local.state, local.attached.marks), "");
+  EXPECT_GT(l.num_pillows, 0u);
+  if (GetParam() < 0.5) {  // turned farther, almost every quad at a curve is squeezed
+    EXPECT_LT(l.num_hexes, w.num_hexes);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, Pillow, ::testing::Values(0.2, 0.4, 0.55, 0.7));
+
+TEST(FeatureMarks, LabelEveryQuadEdgeAndCorner) {
+  TurnedCube c(0.4);
+  const BoundaryLabels labels = make_labels(c.state, c.attached.marks);
+  EXPECT_EQ(labels.quads.size(), c.state.quads.size());
+  for (const LabeledQuad& quad : labels.quads) EXPECT_TRUE(quad.patch.is_valid());
+  EXPECT_EQ(labels.corners.size(), 8u);
+  std::size_t length = 0;
+  for (const CurvePath& path : c.attached.mapping.curves) length += path.verts.size() - 1;
+  EXPECT_EQ(labels.edges.size(), length);
+}
+
+}  // namespace
+}  // namespace hexwright::fitting
