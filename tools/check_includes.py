@@ -17,7 +17,7 @@ ALLOWED = {
     "fit": {"base", "mesh", "geometry", "quality"},
     "polycube": {"base", "mesh", "geometry", "grid", "dual", "fit", "quality"},
     "io": {"base", "mesh", "grid"},
-    "render": {"base", "mesh", "geometry", "quality"},
+    "render": {"base", "mesh", "geometry", "quality", "io"},
     "pipeline": {"base", "mesh", "geometry", "grid", "dual", "quality", "fit", "polycube", "io", "render"},
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hexwright/mesh/hex_mesh.h"
@@ -12,9 +13,9 @@
 namespace hexwright {
 
 struct PictureOptions {
-  int width = 1200, height = 900;
-  int supersample = 3;                  ///< samples per pixel and axis
-  Vec3 view_direction = {-1, 2, -0.8};  ///< from the eye into the scene
+  int width = 1200, height = 900;       ///< pixels, 16 to 16384
+  int supersample = 3;                  ///< samples per pixel and axis, 1 to 8
+  Vec3 view_direction = {-1, 2, -0.8};  ///< from the eye into the scene; z is up
   /// Hexes whose centre lies on the positive side of this plane are cut away; absent = no cut.
   struct Cut {
     Vec3 normal = {0, -1, 0};
@@ -23,7 +24,11 @@ struct PictureOptions {
   std::optional<Cut> cut;
   /// Colour per hex in [0, 1] on the quality scale (red 0 .. blue 1); empty = scaled Jacobian.
   std::vector<double> values;
+  std::string legend_title = "scaled Jacobian";  ///< letters, digits, spaces and . , - + % / : ( )
   bool draw_legend = true;
+  bool draw_edges = true;
+  /// With a cut, the mesh's own boundary is drawn pale, so that the inside stands out.
+  bool fade_boundary = true;
 };
 
 /// RGB image, row by row from the top.
@@ -32,7 +37,13 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
+/// Draws the faces that no other hex covers, each in its hex's colour, with the hexes' edges. Faces
+/// are opaque and hide each other by depth, so that non-conforming and inverted hexes are drawn as
+/// they are. The camera frames the whole mesh, cut or not. Throws Error{BadArgument} for options
+/// out of range, or values whose number is not that of the hexes.
 Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options);
+
+/// Writes 8-bit RGB. Throws Error{CannotOpen} when the file cannot be written whole.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace hexwright

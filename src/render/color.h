@@ -1,0 +1,24 @@
+// Colours with components in [0, 1], and the scale that shows quality.
+#pragma once
+
+#include <array>
+
+namespace hexwright {
+
+struct Color {
+  float r = 0, g = 0, b = 0;
+
+  friend Color operator*(float s, const Color& c) { return {s * c.r, s * c.g, s * c.b}; }
+  friend Color operator+(const Color& a, const Color& b) {
+    return {a.r + b.r, a.g + b.g, a.b + b.b};
+  }
+};
+
+inline Color mix(const Color& a, const Color& b, float share_of_b) {
+  return (1 - share_of_b) * a + share_of_b * b;
+}
+
+/// Red at 0 and below, through yellow, to blue at 1 and above; grey when the value is not a number.
+Color quality_color(double value);
+
+}  // namespace hexwright

@@ -1,0 +1,134 @@
+// From a hex mesh to an image: camera, faces, light, z-buffer, ambient occlusion, legend.
+#include "hexwright/render/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+#include "hexwright/quality/hex_quality.h"
+
+#include "render/ambient_occlusion.h"
+#include "render/camera.h"
+#include "render/legend.h"
+#include "render/rasterizer.h"
+#include "render/visible_faces.h"
+
+namespace hexwright {
+namespace {
+
+void check_options(const HexMesh& mesh, const PictureOptions& options) {
+  const auto require = [](bool holds, const char* message) {
+    if (!holds) throw Error(ErrorCode::BadArgument, message);
+  };
+  const auto is_size = [](int pixels) { return pixels >= 16 && pixels <= 16384; };
+  require(is_size(options.width) && is_size(options.height),
+          "a picture's width and height must be 16 to 16384 pixels");
+  require(options.supersample >= 1 && options.supersample <= 8,
+          "a picture needs 1 to 8 samples per pixel and axis");
+  require(is_finite(options.view_direction) && norm(options.view_direction) > 0,
+          "the view direction must not be zero");
+  require(!options.cut || (is_finite(options.cut->normal) && norm(options.cut->normal) > 0),
+          "the normal of the cut must not be zero");
+  require(options.values.empty() || options.values.size() == mesh.num_hexes(),
+          "a picture needs one value per hex, or none");
+  if (const auto issue = mesh.find_problem()) require(false, issue->message.c_str());
+}
+
+std::vector<Vec3> used_positions(const HexMesh& mesh) {
+  IdVector<VertId, char> is_used(mesh.num_verts(), 0);
+  for (const auto& hex : mesh.hexes)
+    for (VertId v : hex) is_used[v] = 1;
+  std::vector<Vec3> points;
+  for (VertId v : mesh.positions.ids())
+    if (is_used[v]) points.push_back(mesh.positions[v]);
+  return points;
+}
+
+Viewport place_viewport(const Image& image, bool with_legend) {
+  const double margin = 0.04 * std::min(image.width, image.height);
+  const double right = with_legend ? legend_width(image) + margin : margin;
+  return {margin, margin, std::max(1.0, image.width - margin - right), image.height - 2 * margin};
+}
+
+// Light for a surface with this normal in the camera's frame: a key light from the upper left, a
+// weaker one from the right.
+float light(const Vec3& normal) {
+  const double key = std::max(0.0, dot(normal, normalized(Vec3{-0.45, 0.65, 0.65})));
+  const double fill = std::max(0.0, dot(normal, normalized(Vec3{0.7, 0.1, 0.7})));
+  return static_cast<float>(std::min(1.0, 0.62 + 0.30 * key + 0.2 * fill));
+}
+
+// Twice the area on the screen, negative when counter-clockwise as seen (y points down).
+double signed_area(const std::array<ScreenPoint, 4>& c) {
+  return (c[2].x - c[0].x) * (c[3].y - c[1].y) - (c[2].y - c[0].y) * (c[3].x - c[1].x);
+}
+
+// Edges fade where the faces become so small that lines would cover them.
+float line_share(const std::array<ScreenPoint, 4>& c) {
+  double perimeter = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    perimeter += std::hypot(c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y);
+  return static_cast<float>(0.85 * std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
+}
+
+ShadedQuad shade(const HexMesh& mesh, const VisibleFace& visible, const Camera& camera,
+                 const Color& color) {
+  const auto verts = face_verts(mesh, visible.face);
+  std::array<Vec3, 4> p;
+  ShadedQuad quad;
+  for (std::size_t k = 0; k < 4; ++k) {
+    p[k] = mesh.positions[verts[k]];
+    quad.corners[k] = camera.project(p[k]);
+  }
+  quad.is_back = signed_area(quad.corners) > 0;
+  const Vec3 outward = normalized(cross(p[2] - p[0], p[3] - p[1]));
+  quad.normal = camera.to_view(quad.is_back ? -outward : outward);
+  quad.color = light(quad.normal) * color;
+  quad.line_share = line_share(quad.corners);
+  return quad;
+}
+
+std::vector<ShadedQuad> shade_faces(const HexMesh& mesh, const std::vector<double>& values,
+                                    const Camera& camera, const PictureOptions& options) {
+  const auto faces = find_visible_faces(mesh, options.cut);
+  const bool is_faded = options.cut && options.fade_boundary;
+  std::vector<ShadedQuad> quads(faces.size());
+  parallel_for(faces.size(), [&](std::size_t i) {
+    Color color = quality_color(values[faces[i].face.hex.index()]);
+    if (is_faded && faces[i].is_boundary) color = mix(color, {0.93F, 0.92F, 0.90F}, 0.8F);
+    quads[i] = shade(mesh, faces[i], camera, color);
+    if (!options.draw_edges) quads[i].line_share = 0;
+  });
+  return quads;
+}
+
+void copy_pixels(const Raster& raster, Image& image) {
+  const auto to_byte = [](float component) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(component, 0.0F, 1.0F)));
+  };
+  image.rgb.clear();
+  image.rgb.reserve(3 * raster.color.size());
+  for (const Color& c : raster.color)
+    for (float component : {c.r, c.g, c.b}) image.rgb.push_back(to_byte(component));
+}
+
+}  // namespace
+
+Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options) {
+  check_options(mesh, options);
+  Image image{options.width, options.height, {}};
+  const auto values =
+      options.values.empty() ? compute_scaled_jacobians(mesh).raw() : options.values;
+  const Camera camera(used_positions(mesh), options.view_direction,
+                      place_viewport(image, options.draw_legend));
+  RasterOptions raster_options{options.width, options.height, options.supersample, 1};
+  raster_options.line_width = std::max(0.7, options.width / 1100.0);
+  Raster raster = rasterize(shade_faces(mesh, values, camera, options), raster_options);
+  apply_ambient_occlusion(raster, camera.focal_length());
+  copy_pixels(raster, image);
+  if (options.draw_legend) draw_legend(image, options.legend_title, values);
+  return image;
+}
+
+}  // namespace hexwright
