@@ -109,14 +109,19 @@ void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
     write_file_atomically(path, io::vtk_legacy_bytes(mesh, options));
   else if (extension == ".mesh")
     write_file_atomically(path, io::medit_text(mesh));
+  else if (extension == ".msh")
+    write_file_atomically(path, io::gmsh_text(mesh));
+  else if (extension == ".inp")
+    write_file_atomically(path, io::abaqus_text(mesh));
   else
-    throw Error(ErrorCode::BadArgument,
-                "cannot write a hex mesh as '" + extension + "'; use .vtu, .vtk or .mesh",
-                path.string());
+    throw Error(
+        ErrorCode::BadArgument,
+        "cannot write a hex mesh as '" + extension + "'; use .vtu, .vtk, .mesh, .msh or .inp",
+        path.string());
 }
 
 const std::vector<std::string>& hex_mesh_extensions() {
-  static const std::vector<std::string> kExtensions = {".vtu", ".vtk", ".mesh"};
+  static const std::vector<std::string> kExtensions = {".vtu", ".vtk", ".mesh", ".msh", ".inp"};
   return kExtensions;
 }
 

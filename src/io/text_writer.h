@@ -23,6 +23,14 @@ class TextWriter {
     return number(value);
   }
   TextWriter& real(double value) { return number(value); }
+  /// Scientific form with this many digits after the point.
+  TextWriter& real_rounded(double value, int digits) {
+    char buffer[48];
+    const auto result =
+        std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits);
+    out_.append(buffer, result.ptr);
+    return *this;
+  }
   TextWriter& point(const Vec3& p) { return real(p.x).text(" ").real(p.y).text(" ").real(p.z); }
   /// Ids, separated by blanks, plus `base`.
   template <class Ids>

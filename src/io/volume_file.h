@@ -37,6 +37,8 @@ VolumeFile read_vtu(const VolumeSource& source);
 VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension);
 
 std::string medit_text(const HexMesh& mesh);
+std::string gmsh_text(const HexMesh& mesh);
+std::string abaqus_text(const HexMesh& mesh);
 std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options);
 std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options);
 

@@ -1,7 +1,7 @@
 // Reading and writing adaptive grids.
 #include "hexwright/io/grid_io.h"
 
-#include <random>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -9,28 +9,14 @@
 #include "hexwright/io/mesh_io.h"
 
 #include "helpers.h"
+#include "io/sample_meshes.h"
 #include "io/temp_folder.h"
 
 namespace hexwright {
 namespace {
 
+using test::random_grid;
 using test::TempFolder;
-
-/// A grid over the given roots, split at random `depth` times.
-Grid random_grid(const GridFrame& frame, std::vector<LatticeCoord> roots, int depth,
-                 unsigned seed) {
-  std::vector<CellSpec> cells;
-  for (const LatticeCoord& root : roots) cells.push_back({0, root});
-  Grid grid = make_grid(frame, std::move(roots), cells);
-  std::mt19937 random(seed);
-  for (int k = 0; k < depth; ++k) {
-    std::vector<char> is_marked(grid.num_cells());
-    for (char& mark : is_marked) mark = random() % 3 == 0;
-    is_marked[random() % is_marked.size()] = 1;
-    grid = split_cells(grid, is_marked);
-  }
-  return grid;
-}
 
 void expect_same(const Grid& a, const Grid& b, const std::string& what) {
   EXPECT_EQ(a.frame, b.frame) << what;
@@ -38,9 +24,6 @@ void expect_same(const Grid& a, const Grid& b, const std::string& what) {
   EXPECT_EQ(a.finest_level, b.finest_level) << what;
   EXPECT_EQ(a.cells, b.cells) << what;
 }
-
-const std::vector<LatticeCoord> kRing = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0},
-                                         {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
 
 TEST(GridIo, SingleRootsSurviveEveryFormat) {
   const TempFolder folder;
@@ -55,7 +38,7 @@ TEST(GridIo, SingleRootsSurviveEveryFormat) {
 
 TEST(GridIo, DomainsOfSeveralRootsSurvive) {
   const TempFolder folder;
-  const Grid grid = random_grid({{1, 2, 3}, 0.1}, kRing, 3, 5);
+  const Grid grid = random_grid({{1, 2, 3}, 0.1}, test::kRingRoots, 3, 5);
   for (const char* name : {"a.cells", "a.vtu", "a.htg"}) {
     write_grid(folder / name, grid);
     const Grid back = read_grid(folder / name);
@@ -94,7 +77,7 @@ TEST(GridIo, LargestRootsThatTileTheDomainAreFoundInForeignHexes) {
   write_grid(folder / "cube.mesh", grid);
   expect_same(read_grid(folder / "cube.mesh"), grid, "regular cube");
   // A ring of cubes has no larger root than its own cubes.
-  const Grid ring = random_grid({{0, 0, 0}, 1}, kRing, 2, 11);
+  const Grid ring = random_grid({{0, 0, 0}, 1}, test::kRingRoots, 2, 11);
   write_grid(folder / "ring.mesh", ring);
   expect_same(read_grid(folder / "ring.mesh"), ring, "ring");
 }

@@ -4,31 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "hexwright/base/error.h"
-#include "hexwright/mesh/hex_adjacency.h"
 
 #include "helpers.h"
+#include "io/sample_meshes.h"
 #include "io/temp_folder.h"
 
 namespace hexwright {
 namespace {
 
+using test::labelled_box;
 using test::TempFolder;
-
-/// A box with a region per hex and labels on its whole boundary: patch = side, four edges along z
-/// as curves, their ends as corners; one quad and one edge without a number.
-HexMesh labelled_box() {
-  HexMesh mesh = test::box_hex_mesh(2, 3, 2);
-  for (VertId v : mesh.positions.ids()) mesh.positions[v] += Vec3{1.0 / 3, -1e-9, 1e5};
-  for (HexId h : mesh.hexes.ids()) mesh.region.push_back(h.value() % 3);
-  for (HexFace face : compute_hex_neighbors(mesh).boundary)
-    mesh.labels.quads.push_back({face_verts(mesh, face), PatchId(face.lf)});
-  mesh.labels.quads.back().patch = PatchId();
-  const auto& first = mesh.hexes[HexId(0)];
-  for (int e = 0; e < 4; ++e)
-    mesh.labels.edges.push_back({{first[e], first[4 + e]}, e == 3 ? CurveId() : CurveId(e)});
-  mesh.labels.corners = {first[0], first[1]};
-  return mesh;
-}
 
 void expect_same(const HexMesh& a, const HexMesh& b, const std::string& what) {
   EXPECT_EQ(a.positions, b.positions) << what;

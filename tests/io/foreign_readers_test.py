@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Opens files written by hexwright with the readers of VTK and meshio.
+
+Usage: foreign_readers_test.py vtk|meshio WRITE_SAMPLES_PROGRAM
+Exit code 77 (skipped) when the module is not installed; `pip install vtk meshio` brings both.
+"""
+import importlib.util
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SKIPPED = 77
+
+
+def read_vtk(reader, path):
+    reader.SetFileName(str(path))
+    if hasattr(reader, "ReadAllFieldsOn"):
+        reader.ReadAllFieldsOn()
+    reader.Update()
+    return reader.GetOutputDataObject(0)
+
+
+def check_vtk_mesh(grid, samples, has_sets):
+    sets = samples["quads"] + samples["edges"] + samples["corners"] if has_sets else 0
+    assert grid.GetNumberOfPoints() == samples["verts"]
+    assert grid.GetNumberOfCells() == samples["hexes"] + sets
+    assert all(grid.GetCellType(c) == 12 for c in range(samples["hexes"]))
+    for name in ("region", "quality") + (("patch", "curve") if has_sets else ()):
+        assert grid.GetCellData().HasArray(name), name
+    assert grid.GetPointData().HasArray("feature")
+    fields = grid.GetFieldData()
+    assert fields.GetArray("boundary_quads").GetNumberOfTuples() == samples["quads"]
+    assert fields.GetArray("boundary_quad_patch").GetNumberOfTuples() == samples["quads"]
+    assert fields.GetArray("feature_edges").GetNumberOfTuples() == samples["edges"]
+    assert fields.GetArray("corners").GetNumberOfTuples() == samples["corners"]
+
+
+def check_vtk_htg(tree_grid, samples):
+    """Walks VTK's trees and compares centre and level of every leaf."""
+    import vtk
+
+    levels = tree_grid.GetCellData().GetArray("level")
+    leaves = []
+    cursor = vtk.vtkHyperTreeGridNonOrientedGeometryCursor()
+
+    def visit():
+        if cursor.IsLeaf():
+            box = [0.0] * 6
+            cursor.GetBounds(box)
+            centre = [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, (box[4] + box[5]) / 2]
+            level = cursor.GetLevel()
+            assert levels.GetValue(cursor.GetGlobalNodeIndex()) == level
+            leaves.append([round(x, 9) for x in centre] + [level])
+            return
+        for child in range(8):
+            cursor.ToChild(child)
+            visit()
+            cursor.ToParent()
+
+    trees = 0
+    for index in range(tree_grid.GetMaxNumberOfTrees()):
+        if tree_grid.GetTree(index) is None:
+            continue
+        trees += 1
+        tree_grid.InitializeNonOrientedGeometryCursor(cursor, index)
+        visit()
+    assert trees == 8, trees
+    expected = sorted([round(x, 9) for x in leaf[:3]] + [leaf[3]] for leaf in samples["leaves"])
+    assert sorted(leaves) == expected
+    assert tree_grid.GetNumberOfLeaves() == len(expected)
+
+
+def run_vtk(folder, samples):
+    import vtk
+
+    check_vtk_mesh(read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "box.vtu"), samples, False)
+    check_vtk_mesh(read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "sets.vtu"), samples, True)
+    check_vtk_mesh(read_vtk(vtk.vtkUnstructuredGridReader(), folder / "box.vtk"), samples, False)
+    check_vtk_mesh(read_vtk(vtk.vtkUnstructuredGridReader(), folder / "sets.vtk"), samples, True)
+    check_vtk_htg(read_vtk(vtk.vtkXMLHyperTreeGridReader(), folder / "grid.htg"), samples)
+    grid = read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "grid.vtu")
+    assert grid.GetNumberOfCells() == len(samples["leaves"])
+
+
+def run_meshio(folder, samples):
+    import meshio
+
+    reference = meshio.read(folder / "box.vtu")
+    for extension in samples["extensions"]:
+        mesh = meshio.read(folder / ("box" + extension))
+        cells = mesh.cells_dict
+        assert cells["hexahedron"].shape == (samples["hexes"], 8), extension
+        assert abs(mesh.points - reference.points).max() < 1e-6, extension
+        # Regions are blocks of their own in some formats, so the order of the hexes may differ.
+        assert sorted(map(tuple, cells["hexahedron"])) == sorted(
+            map(tuple, reference.cells_dict["hexahedron"])), extension
+        if extension in (".mesh", ".msh"):
+            assert cells["quad"].shape == (samples["quads"], 4), extension
+            assert cells["line"].shape == (samples["edges"], 2), extension
+    gmsh = meshio.read(folder / "box.msh")
+    names = set(gmsh.field_data)
+    assert {"REGION_0", "REGION_1", "REGION_2", "PATCH_0", "PATCH_5", "PATCH_NONE", "CURVE_0",
+            "CURVE_NONE", "CORNERS"} <= names, names
+    abaqus = meshio.read(folder / "box.inp")
+    assert {"CORNERS", "CURVE_0", "PATCH_0_NODES"} <= set(abaqus.point_sets), abaqus.point_sets
+    assert len(abaqus.point_sets["CORNERS"]) == samples["corners"]
+
+
+def main():
+    module, program = sys.argv[1:]
+    if importlib.util.find_spec(module) is None:
+        print(f"the Python module '{module}' is not installed: skipped")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        subprocess.run([program, name], check=True)
+        samples = json.loads((folder / "samples.json").read_text())
+        {"vtk": run_vtk, "meshio": run_meshio}[module](folder, samples)
+    print(f"{module} reads everything as it was written")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+// Writes one file of every output format into a folder, for other programs' readers to judge.
+//
+// Usage: write_samples FOLDER. samples.json says what the files hold.
+#include <cstdio>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "hexwright/base/error.h"
+#include "hexwright/io/grid_io.h"
+#include "hexwright/io/mesh_io.h"
+
+#include "io/sample_meshes.h"
+
+int main(int argc, char** argv) {
+  using namespace hexwright;
+  if (argc != 2) return 2;
+  const std::filesystem::path folder = argv[1];
+  try {
+    std::filesystem::create_directories(folder);
+    const HexMesh mesh = test::labelled_box();
+    WriteHexOptions options;
+    options.fields.push_back({"quality", std::vector<double>(mesh.num_hexes(), 0.25)});
+    for (const std::string& extension : hex_mesh_extensions())
+      write_hex_mesh(folder / ("box" + extension), mesh, options);
+    options.write_sets = true;
+    write_hex_mesh(folder / "sets.vtu", mesh, options);
+    write_hex_mesh(folder / "sets.vtk", mesh, options);
+
+    const Grid grid = test::random_grid({{1, 2, 3}, 0.5}, test::kRingRoots, 3, 7);
+    write_grid(folder / "grid.htg", grid);
+    write_grid(folder / "grid.vtu", grid);
+
+    nlohmann::json samples;
+    samples["hexes"] = mesh.num_hexes();
+    samples["verts"] = mesh.num_verts();
+    samples["quads"] = mesh.labels.quads.size();
+    samples["edges"] = mesh.labels.edges.size();
+    samples["corners"] = mesh.labels.corners.size();
+    samples["extensions"] = hex_mesh_extensions();
+    for (CellId c : grid.cells.ids()) {
+      const Vec3 p = cell_box(grid, c).center();
+      samples["leaves"].push_back({p.x, p.y, p.z, int(grid.cells[c].level)});
+    }
+    std::ofstream(folder / "samples.json") << samples;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
