@@ -41,15 +41,16 @@ struct BoxQuery {
   }
 };
 
-void box_distances(const BvhNode& node, const BoxQuery& q, float out[4]) {
-  for (int k = 0; k < 4; ++k) out[k] = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) {
-      const float below = node.lo[axis][k] - q.p[axis], above = q.p[axis] - node.hi[axis][k];
-      const float outside = (below > above ? below : above) - q.slack;
-      const float d = outside > 0 ? outside : 0;
-      out[k] += d * d;
-    }
+/// Lower bounds of the squared distances to the four children.
+Float4 box_distances(const BvhNode& node, const BoxQuery& q) {
+  Float4 sum = splat(0.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float4 p = splat(q.p[axis]);
+    const Float4 outside = max(node.lo[axis] - p, p - node.hi[axis]) - splat(q.slack);
+    const Float4 d = max(outside, splat(0.0f));
+    sum += d * d;
+  }
+  return sum;
 }
 
 /// Nodes still to visit, nearest last.
@@ -197,8 +198,7 @@ void SurfaceTree::Impl::search(const Vec3& p, const ClosestFilter& filter, Best&
       continue;
     }
     const BvhNode& node = bvh.nodes[static_cast<std::size_t>(entry.child)];
-    float distance_sq[4];
-    box_distances(node, query, distance_sq);
+    const Float4 distance_sq = box_distances(node, query);
     const int from = stack.size();
     for (int k = 0; k < 4; ++k) {
       if (!(distance_sq[k] <= limit)) continue;

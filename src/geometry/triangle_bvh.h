@@ -12,10 +12,12 @@
 
 #include "hexwright/mesh/tri_mesh.h"
 
+#include "geometry/simd.h"
+
 namespace hexwright {
 
 struct BvhNode {
-  float lo[3][4], hi[3][4];  ///< per axis, per child; an unused child has lo > hi
+  Float4 lo[3], hi[3];  ///< per axis, per child; an unused child has lo > hi
   /// Inner child: number of its node. Leaf: ~(first * 8 + count) with at most 4 triangles.
   std::int32_t child[4];
 

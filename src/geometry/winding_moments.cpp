@@ -14,7 +14,8 @@ struct SlotRange {
 Vec3 area_normal(const TriangleData& t) { return cross(t.ab, t.ac) * 0.5; }
 Vec3 centroid(const TriangleData& t) { return t.a + (t.ab + t.ac) / 3; }
 
-void set_child(WindingNode& node, int k, const std::vector<TriangleData>& slots, SlotRange range) {
+void set_child(WindingNode::Pair& pair, int k, const std::vector<TriangleData>& slots,
+               SlotRange range) {
   double area = 0;
   Vec3 normal, weighted;
   const Vec3 origin = slots[static_cast<std::size_t>(range.first)].a;
@@ -40,11 +41,18 @@ void set_child(WindingNode& node, int k, const std::vector<TriangleData>& slots,
       radius_sq = std::max(radius_sq, norm_sq(q - center));
   }
   for (int axis = 0; axis < 3; ++axis) {
-    node.center[axis][k] = center[axis];
-    node.normal[axis][k] = normal[axis];
+    pair.center[axis][k] = center[axis];
+    pair.normal[axis][k] = normal[axis];
   }
-  for (int i = 0; i < 6; ++i) node.moment[i][k] = moment[i];
-  node.radius_sq[k] = radius_sq;
+  for (int i = 0; i < 6; ++i) pair.moment[i][k] = moment[i];
+  pair.radius_sq[k] = radius_sq;
+}
+
+/// Gives an unused child the ball of the node's first one.
+void copy_ball(WindingNode& node, int k) {
+  WindingNode::Pair& pair = node.pair[k / 2];
+  for (int axis = 0; axis < 3; ++axis) pair.center[axis][k % 2] = node.pair[0].center[axis][0];
+  pair.radius_sq[k % 2] = node.pair[0].radius_sq[0];
 }
 
 SlotRange fill_node(const TriangleBvh& bvh, const std::vector<TriangleData>& slots, int id,
@@ -53,28 +61,43 @@ SlotRange fill_node(const TriangleBvh& bvh, const std::vector<TriangleData>& slo
   SlotRange all{static_cast<int>(slots.size()), 0};
   for (int k = 0; k < 4; ++k) {
     SlotRange range;
-    if (!node.is_leaf(k)) {
+    if (!node.is_leaf(k))
       range = fill_node(bvh, slots, node.child[k], out);
-    } else {
+    else
       range = {node.leaf_first(k), node.leaf_first(k) + node.leaf_count(k)};
-      if (node.leaf_count(k) == 0) continue;
+    WindingNode& winding = out[static_cast<std::size_t>(id)];
+    if (range.first == range.last) {
+      copy_ball(winding, k);
+      continue;
     }
-    set_child(out[static_cast<std::size_t>(id)], k, slots, range);
+    set_child(winding.pair[k / 2], k % 2, slots, range);
     all = {std::min(all.first, range.first), std::max(all.last, range.last)};
   }
   return all;
 }
 
-/// The expansion of child k at offset d from the query (solid angle, not divided by 4 pi).
-double far_field(const WindingNode& node, int k, const Vec3& d, double distance_sq) {
-  const double inverse_sq = 1 / distance_sq;
-  const double inverse_cubed = inverse_sq * std::sqrt(inverse_sq);
-  const double dipole = node.normal[0][k] * d.x + node.normal[1][k] * d.y + node.normal[2][k] * d.z;
-  const auto& m = node.moment;
-  const double trace = m[0][k] + m[1][k] + m[2][k];
-  const double quadratic = m[0][k] * d.x * d.x + m[1][k] * d.y * d.y + m[2][k] * d.z * d.z +
-                           m[3][k] * d.x * d.y + m[4][k] * d.y * d.z + m[5][k] * d.z * d.x;
-  return inverse_cubed * (dipole + trace - 3 * quadratic * inverse_sq);
+/// The expansions of two children at offsets d from the query (solid angles).
+Double2 far_field(const WindingNode::Pair& pair, const Double2 d[3], Double2 distance_sq) {
+  const Double2 inverse_sq = splat(1.0) / distance_sq;
+  const Double2 inverse = {std::sqrt(inverse_sq[0]), std::sqrt(inverse_sq[1])};
+  const auto& n = pair.normal;
+  const auto& m = pair.moment;
+  const Double2 dipole = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+  const Double2 trace = m[0] + m[1] + m[2];
+  const Double2 quadratic = (m[0] * d[0] + m[3] * d[1]) * d[0] +
+                            (m[1] * d[1] + m[4] * d[2]) * d[1] + (m[2] * d[2] + m[5] * d[0]) * d[2];
+  return inverse_sq * inverse * (dipole + trace - splat(3.0) * quadratic * inverse_sq);
+}
+
+double exact_half_angles(const std::vector<TriangleData>& slots, int first, int count,
+                         const Vec3& p) {
+  double sum = 0;
+  for (int i = first; i < first + count; ++i) {
+    const TriangleData& t = slots[static_cast<std::size_t>(i)];
+    const Vec3 a = t.a - p;
+    sum += half_solid_angle(a, a + t.ab, a + t.ac);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -89,7 +112,7 @@ std::vector<WindingNode> compute_winding_nodes(const TriangleBvh& bvh,
 double evaluate_winding(const TriangleBvh& bvh, const std::vector<WindingNode>& nodes,
                         const std::vector<TriangleData>& slots, const Vec3& p, double accuracy) {
   if (nodes.empty()) return 0;
-  const double accuracy_sq = accuracy * accuracy;
+  const Double2 accuracy_sq = splat(accuracy * accuracy);
   double half_angle = 0, angle = 0;  // exact and expanded parts
   int stack[3 * kMaxBvhDepth + 4];
   int top = 0;
@@ -97,22 +120,21 @@ double evaluate_winding(const TriangleBvh& bvh, const std::vector<WindingNode>& 
   while (top > 0) {
     const auto id = static_cast<std::size_t>(stack[--top]);
     const BvhNode& node = bvh.nodes[id];
-    const WindingNode& far = nodes[id];
-    for (int k = 0; k < 4; ++k) {
-      const int count = node.is_leaf(k) ? node.leaf_count(k) : -1;
-      if (count == 0) continue;
-      const Vec3 d{far.center[0][k] - p.x, far.center[1][k] - p.y, far.center[2][k] - p.z};
-      const double distance_sq = norm_sq(d);
-      if (distance_sq > accuracy_sq * far.radius_sq[k]) {
-        angle += far_field(far, k, d, distance_sq);
-      } else if (count < 0) {
-        stack[top++] = node.child[k];
-      } else {
-        for (int i = 0; i < count; ++i) {
-          const TriangleData& t = slots[static_cast<std::size_t>(node.leaf_first(k) + i)];
-          const Vec3 a = t.a - p;
-          half_angle += half_solid_angle(a, a + t.ab, a + t.ac);
-        }
+    for (int half = 0; half < 2; ++half) {
+      const WindingNode::Pair& pair = nodes[id].pair[half];
+      const Double2 d[3] = {pair.center[0] - splat(p.x), pair.center[1] - splat(p.y),
+                            pair.center[2] - splat(p.z)};
+      const Double2 distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      const auto is_far = distance_sq > accuracy_sq * pair.radius_sq;
+      const Double2 far = is_far ? far_field(pair, d, distance_sq) : splat(0.0);
+      angle += far[0] + far[1];
+      for (int i = 0; i < 2; ++i) {
+        const int k = 2 * half + i;
+        if (is_far[i]) continue;
+        if (node.is_leaf(k))
+          half_angle += exact_half_angles(slots, node.leaf_first(k), node.leaf_count(k), p);
+        else
+          stack[top++] = node.child[k];
       }
     }
   }

@@ -11,13 +11,17 @@
 
 namespace hexwright {
 
-/// For child k of a node: all its triangles as one dipole at their area-weighted centre.
+/// For each child of a node: all its triangles as one dipole at their area-weighted centre.
+/// Children 0 and 1 are the first pair, 2 and 3 the second. An unused child repeats the centre and
+/// radius of another, without moments.
 struct WindingNode {
-  double center[3][4];
-  double normal[3][4];  ///< sum of area normals
-  double moment[6]
-               [4];  ///< sum of area normal x (centroid - centre), symmetrised: xx yy zz xy yz zx
-  double radius_sq[4];  ///< of the ball about the centre that holds all corners
+  struct Pair {
+    Double2 center[3];
+    Double2 normal[3];  ///< sum of area normals
+    Double2 moment[6];  ///< area normal x (centroid - centre): xx yy zz xy+yx yz+zy zx+xz
+    Double2 radius_sq;  ///< of the ball about the centre that holds all corners
+  };
+  Pair pair[2];
 };
 
 /// One per node of the hierarchy. `slots` are the triangles in leaf order.
