@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 namespace hexwright {
 
@@ -38,7 +39,11 @@ void parallel_chunks(std::size_t count, std::size_t grain,
     for (std::size_t chunk = 0; chunk < num_chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk);
+  // Workers round and treat denormals as the caller does. Without this a loop inherits whatever
+  // mode was set when the workers started, for example by a ray tracer that flushes denormals.
+  using TbbContext = tbb::task_group_context;
+  TbbContext context(TbbContext::bound, TbbContext::default_traits | TbbContext::fp_settings);
+  tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk, context);
 }
 
 }  // namespace hexwright

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
 
 #include "geometry/embree.h"
 #include "geometry/triangle_math.h"
@@ -15,6 +16,8 @@ namespace {
 /// plane, hit because floats moved the origin off it.
 constexpr double kSelfHit = 1e-5;
 constexpr int kMaxPasses = 8;
+/// Where to go on after a hit that does not count: past it, but not past a wall 1e-7 behind.
+constexpr float kNextHit = 1.000001f, kLeastStep = 1e-9f;
 
 }  // namespace
 
@@ -29,7 +32,9 @@ struct RayScene::Impl {
       : frame(compute_unit_frame(surface)), unit(to_unit(surface, frame)) {
     for (TriId t : unit.tris.ids()) normals.push_back(unit_normal(unit.corners(t)));
     // One builder thread: the hierarchy, and with it the choice among equal hits, stays the same.
-    device = rtcNewDevice("threads=1");
+    // (The library's own thread option would also hold back the loops that cast rays.)
+    const ThreadLimit one_builder(1);
+    device = rtcNewDevice(nullptr);
     if (!device)
       throw Error(ErrorCode::OutOfResources, "the ray tracer cannot start on this machine");
     scene = rtcNewScene(device);
@@ -107,7 +112,7 @@ std::optional<RayHit> RayScene::first_wall(const Vec3& from, TriId source,
     if (!is_self)
       return RayHit{
           tri, impl_->frame.length_to_world(impl_->refined_length(tri, from, direction, length))};
-    near = std::nextafterf(query.ray.tfar, std::numeric_limits<float>::infinity());
+    near = query.ray.tfar * kNextHit + kLeastStep;
   }
   return std::nullopt;
 }

@@ -85,6 +85,16 @@ TEST(ShapeDiameter, AnOpenSheetIsInfinite) {
   EXPECT_EQ(compute_shape_diameter(sheet, {}, {})[TriId(0)], kInfinity);
 }
 
+TEST(ShapeDiameter, LeavesDenormalNumbersToOtherLoops) {
+  // Ray tracers like to flush denormals to zero, on threads that other loops use afterwards.
+  compute_shape_diameter(box_surface({1, 1, 1}, 20), {}, {});
+  volatile double least = std::numeric_limits<double>::denorm_min();
+  std::vector<char> is_kept(1000, 0);
+  parallel_for(
+      is_kept.size(), [&](std::size_t i) { is_kept[i] = least * 2 > 0; }, 1);
+  for (char kept : is_kept) EXPECT_TRUE(kept);
+}
+
 TEST(OppositeWalls, SlabHasItsThicknessInsideAndNothingOutside) {
   const double t = 0.05;
   const auto slab = box_surface({1, 1, t}, 1);
