@@ -19,6 +19,17 @@ Domain::Domain(const Grid& grid) : root_list_(grid.roots), finest_level_(grid.fi
   is_box_ = volume == grid.roots.size();
 }
 
+bool Domain::is_thin() const {
+  for (const LatticeCoord& root : root_list_)
+    for (int a = 0; a < 3; ++a) {
+      LatticeCoord below = root, above = root;
+      --below[a];
+      ++above[a];
+      if (!contains_root(below) && !contains_root(above)) return true;
+    }
+  return false;
+}
+
 std::size_t Domain::cell_index(const LatticeCoord& root) const {
   const auto group = static_cast<std::size_t>(roots_.find_group(parent_of(root)));
   return 8 * group +

@@ -30,6 +30,8 @@ class Domain {
   std::size_t num_cell_indices() const { return 8 * roots_.num_groups(); }
 
   bool is_box() const { return is_box_; }
+  /// Some root has no neighbour on either side along an axis.
+  bool is_thin() const;
   const LatticeCoord& low() const { return low_; }    ///< lowest root
   const LatticeCoord& high() const { return high_; }  ///< one past the highest root
   std::int32_t root_edge() const { return 1 << finest_level_; }

@@ -58,13 +58,18 @@ BaseStatus build_complex(const Grid& grid, const DualOptions& options, const Con
   return status;
 }
 
-// Domains one root thick are meshed on the lattice of half their roots.
+// Domains one root thick are meshed on the lattice of half their roots: there a root can meet the
+// boundary around two of its corners, and the pillows of a split root could not tell them apart.
+// Boxes have no such corners at any thickness.
 HexComplex build_complex_of_any(const Grid& grid, const DualOptions& options,
                                 const Context& context, Grid& used_grid) {
   if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
   HexComplex complex;
   used_grid = grid;
-  if (build_complex(grid, options, context, complex) == BaseStatus::Ok) return complex;
+  const Domain domain(grid);
+  const bool is_refined_and_thin = grid.finest_level > 0 && !domain.is_box() && domain.is_thin();
+  if (!is_refined_and_thin && build_complex(grid, options, context, complex) == BaseStatus::Ok)
+    return complex;
   used_grid = split_roots(grid);
   if (build_complex(used_grid, options, context, complex) == BaseStatus::TooThin)
     throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");

@@ -1,6 +1,7 @@
 #include "polycube/map_back.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "hexwright/base/parallel.h"
@@ -84,6 +85,8 @@ std::vector<Crease> find_creases(const Lattice& lattice, const BoundaryLocator& 
   return creases;
 }
 
+bool is_on_lattice_plane(double x) { return std::abs(x - std::round(x)) < 1e-9; }
+
 // The directions (bit per 2 * axis + up) of the boundary quads at each vertex; 0 inside.
 IdVector<VertId, int> boundary_directions(const HexMesh& mesh) {
   IdVector<VertId, int> directions(mesh.num_verts(), 0);
@@ -94,7 +97,11 @@ IdVector<VertId, int> boundary_directions(const HexMesh& mesh) {
     int axis = 0;
     for (int a = 1; a < 3; ++a)
       if (std::abs(n[a]) > std::abs(n[axis])) axis = a;
-    for (VertId v : q) directions[v] |= 1 << (2 * axis + (n[axis] > 0 ? 1 : 0));
+    // Vertices that the dual stage slid off their planes (chamfered corners) are mapped like
+    // interior ones.
+    for (VertId v : q)
+      if (is_on_lattice_plane(mesh.positions[v][axis]))
+        directions[v] |= 1 << (2 * axis + (n[axis] > 0 ? 1 : 0));
   }
   return directions;
 }
