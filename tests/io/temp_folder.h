@@ -8,12 +8,17 @@
 #include <string>
 #include <string_view>
 
+#include <unistd.h>
+
 namespace hexwright::test {
 
 class TempFolder {
  public:
   TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "hexwright_test_XXXXXX").string();
+    const std::filesystem::path memory = "/dev/shm";  // thousands of small files are written
+    const auto parent =
+        ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+    std::string name = (parent / "hexwright_test_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) std::abort();
     path_ = name;
   }
