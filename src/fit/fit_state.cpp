@@ -1,5 +1,7 @@
 #include "fit/fit_state.h"
 
+#include <algorithm>
+
 namespace hexwright::fitting {
 
 double FitState::residual(VertId v) const {
@@ -40,10 +42,15 @@ void FitState::rebuild() {
   stars = VertexStars(mesh, vert_to_hex);
   colors = VertexColors(mesh, vert_to_hex);
   neighbors = compute_hex_neighbors(mesh);
-  quad_face = neighbors.boundary;
+  quad_face.clear();
   quads.clear();
-  quads.reserve(quad_face.size());
-  for (const HexFace& face : quad_face) quads.push_back(face_verts(mesh, face));
+  for (const HexFace& face : neighbors.boundary) {
+    const auto quad = face_verts(mesh, face);
+    const auto is_held = [&](VertId v) { return move[v] != MoveIn::Space; };
+    if (std::all_of(quad.begin(), quad.end(), is_held)) continue;  // of the fixed outer box
+    quad_face.push_back(face);
+    quads.push_back(quad);
+  }
   for (const auto& quad : quads)
     for (VertId v : quad)
       if (kind[v] == VertKind::Interior) kind[v] = VertKind::Surface;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "hexwright/base/context.h"
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_adjacency.h"
@@ -43,6 +44,7 @@ struct FitState {
   /// Quads to be fitted to the surface, outward of the kept side; quad q belongs to quad_face[q].
   std::vector<std::array<VertId, 4>> quads;
   std::vector<HexFace> quad_face;
+  bool is_reversed = false;  ///< the hexes are on the surface's outer side: quads face inwards
 
   std::size_t num_verts() const { return mesh.num_verts(); }
   bool is_boundary(VertId v) const { return kind[v] != VertKind::Interior; }
@@ -62,7 +64,7 @@ struct FitState {
 
 /// The surface and its features as the passes see them.
 struct FitTarget {
-  SurfaceTree& tree;  ///< carries the patches of the mapped curves
+  const SurfaceTree& tree;  ///< carries the patches of the mapped curves
   const FeatureGraph* features = nullptr;
 };
 

@@ -49,6 +49,8 @@ struct FitReport {
   std::vector<CurveOutcome> curves;
   std::vector<Miss> misses;  ///< boundary vertices farther than 2% of their edge length from their
                              ///< target, worst first
+  std::vector<HexId> unproven;  ///< hexes of the result whose Jacobian is positive at the corners
+                                ///< but not proven positive everywhere inside
   std::vector<std::pair<std::string, double>> seconds;  ///< per pass
 };
 

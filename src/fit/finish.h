@@ -1,0 +1,35 @@
+// The last passes of the fit: they work where something is left to do.
+#pragma once
+
+#include <vector>
+
+#include "fit/fit_state.h"
+
+namespace hexwright::fitting {
+
+/// Adds `rings` rings of hex-neighbours to a set of vertices.
+void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings);
+
+struct RefitOptions {
+  int max_rounds = 4;
+  double stuck = 0.02;  ///< residual, in h, of a vertex that did not reach its target
+  int rings = 3;
+  ShapeEnergy shape{0.9, 1, 0};
+};
+/// Fits the surroundings of stuck vertices anew, from a low to a high attachment weight.
+void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& options,
+                 const Context& context);
+
+struct PolishOptions {
+  int max_rounds = 8;
+  double low = 0.35;  ///< hexes with a scaled Jacobian below are worked on
+};
+/// Raises the worst scaled Jacobians with an energy that the worst corners dominate.
+void polish_worst(FitState& state, const FitTarget& target, const PolishOptions& options,
+                  const Context& context);
+
+/// Moves boundary vertices onto their targets, halving the way up to five times, while the least
+/// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.
+void snap_to_targets(FitState& state, const FitTarget& target, double least_quality);
+
+}  // namespace hexwright::fitting

@@ -1,0 +1,107 @@
+#include "fit/sweep.h"
+
+#include <atomic>
+#include <cmath>
+
+#include "hexwright/base/parallel.h"
+
+#include "fit/targets.h"
+
+namespace hexwright::fitting {
+namespace {
+
+VertexGoal make_goal(const FitState& state, VertId v, double weight) {
+  constexpr AttachTo kAttach[] = {AttachTo::Nothing, AttachTo::Plane, AttachTo::Line,
+                                  AttachTo::Point};
+  VertexGoal goal;
+  const double h = state.size[v];
+  goal.attach = kAttach[static_cast<std::size_t>(state.kind[v])];
+  goal.weight = weight / (h * h);
+  goal.target = state.target[v];
+  goal.direction = state.direction[v];
+  goal.move = state.move[v];
+  goal.axis = state.axis[v];
+  goal.max_step = h;
+  return goal;
+}
+
+// Vertices of one colour share neighbours, so two threads may set the same flag; all set it to 1.
+void mark_dirty(FitState& state, VertId v) {
+  std::atomic_ref<char>(state.is_dirty[v]).store(1, std::memory_order_relaxed);
+}
+
+double solve_vertex(FitState& state, VertId v, const SweepOptions& options, VertexNewton& newton) {
+  const double moved = newton.solve(v, state.stars[v], make_goal(state, v, options.weight),
+                                    options.shape, IdSpan<VertId, Vec3>(state.mesh.positions));
+  if (moved > options.tolerance * state.size[v]) {
+    mark_dirty(state, v);
+    for (const HexStar& star : state.stars[v])
+      for (VertId u : star) mark_dirty(state, u);
+  }
+  return moved;
+}
+
+constexpr std::size_t kVertsPerTask = 64;
+
+}  // namespace
+
+std::size_t sweep(FitState& state, const SweepOptions& options) {
+  std::vector<VertId> dirty;
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < state.colors.num_colors(); ++c) {
+    dirty.clear();
+    for (VertId v : state.colors[c])
+      if (state.is_dirty[v]) dirty.push_back(v);
+    count += dirty.size();
+    parallel_chunks(dirty.size(), kVertsPerTask, [&](std::size_t begin, std::size_t end) {
+      VertexNewton newton;
+      for (std::size_t i = begin; i < end; ++i) {
+        state.is_dirty[dirty[i]] = 0;
+        solve_vertex(state, dirty[i], options, newton);
+      }
+    });
+  }
+  return count;
+}
+
+LocalSweep::LocalSweep(const FitState& state, const std::vector<char>& is_member) {
+  offset_.push_back(0);
+  for (std::size_t c = 0; c < state.colors.num_colors(); ++c) {
+    for (VertId v : state.colors[c])
+      if (is_member[v.index()]) verts_.push_back(v);
+    offset_.push_back(verts_.size());
+  }
+}
+
+void LocalSweep::run(FitState& state, const SweepOptions& options) const {
+  for (std::size_t c = 0; c + 1 < offset_.size(); ++c) {
+    const std::size_t first = offset_[c];
+    parallel_chunks(offset_[c + 1] - first, kVertsPerTask, [&](std::size_t begin, std::size_t end) {
+      VertexNewton newton;
+      for (std::size_t i = begin; i < end; ++i)
+        solve_vertex(state, verts_[first + i], options, newton);
+    });
+  }
+}
+
+std::vector<double> geometric_weights(double first, double last, int count) {
+  std::vector<double> weights;
+  for (int k = 0; k < count; ++k)
+    weights.push_back(first * std::pow(last / first, k / std::max(1.0, count - 1.0)));
+  return weights;
+}
+
+void run_schedule(FitState& state, const FitTarget& target, const Schedule& schedule,
+                  const Context& context) {
+  const double release = 0.6 * static_cast<double>(schedule.weights.size());
+  for (std::size_t k = 0; k < schedule.weights.size(); ++k) {
+    context.check_cancelled();
+    const double hold =
+        schedule.hold_curves ? std::max(0.0, 1 - static_cast<double>(k) / release) : 0.0;
+    update_targets(state, target, hold);
+    SweepOptions options{schedule.shape, schedule.weights[k], schedule.tolerance};
+    for (int s = 0; s < schedule.sweeps_per_weight; ++s) sweep(state, options);
+  }
+}
+
+}  // namespace hexwright::fitting

@@ -1,0 +1,49 @@
+// Sweeps of single-vertex solves over the mesh, and schedules of them with growing attachment.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fit/fit_state.h"
+
+namespace hexwright::fitting {
+
+struct SweepOptions {
+  ShapeEnergy shape;
+  double weight = 0;        ///< of the attachment; divided by h^2 at each vertex
+  double tolerance = 0.03;  ///< a move shorter than this (in h) makes no neighbour dirty
+};
+
+/// Solves every dirty vertex once, colour by colour; returns how many. The same for any number of
+/// threads.
+std::size_t sweep(FitState& state, const SweepOptions& options);
+
+/// Solves the given vertices once each, dirty or not.
+class LocalSweep {
+ public:
+  /// `is_member`: one entry per vertex.
+  LocalSweep(const FitState& state, const std::vector<char>& is_member);
+  void run(FitState& state, const SweepOptions& options) const;
+  std::size_t num_verts() const { return verts_.size(); }
+
+ private:
+  std::vector<std::size_t> offset_;  // per colour
+  std::vector<VertId> verts_;
+};
+
+struct Schedule {
+  ShapeEnergy shape;
+  std::vector<double> weights;
+  int sweeps_per_weight = 1;
+  double tolerance = 0.03;
+  bool hold_curves = false;  ///< curve targets fixed at first, released over the first 60%
+};
+
+/// `count` weights from `first` to `last` in equal ratios.
+std::vector<double> geometric_weights(double first, double last, int count);
+
+/// For each weight: new targets, then the sweeps.
+void run_schedule(FitState& state, const FitTarget& target, const Schedule& schedule,
+                  const Context& context);
+
+}  // namespace hexwright::fitting

@@ -1,0 +1,120 @@
+#include "hexwright/fit/fit.h"
+
+#include <gtest/gtest.h>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/quality/hex_quality.h"
+#include "hexwright/quality/hex_topology.h"
+#include "hexwright/quality/surface_distance.h"
+
+#include "fit/pad_boundary.h"
+#include "fit/sweep.h"
+#include "fit/targets.h"
+#include "fit_helpers.h"
+
+namespace hexwright {
+namespace {
+
+using namespace fitting;
+
+TEST(PadBoundary, AddsOneValidHexPerBoundaryQuad) {
+  std::mt19937 rng(4);
+  std::uniform_real_distribution<double> offset(-0.2, 0.2);
+  HexMesh mesh = test::box_hex_mesh(4, 3, 3);
+  for (Vec3& p : mesh.positions) p += {offset(rng), offset(rng), offset(rng)};
+  FitState state(mesh);
+  const std::size_t num_quads = state.quads.size();
+  pad_boundary(state);
+  EXPECT_EQ(state.mesh.num_hexes(), mesh.num_hexes() + num_quads);
+  EXPECT_EQ(state.quads.size(), num_quads);
+  EXPECT_GT(summarize_quality(state.mesh).min_scaled_jacobian, 0);
+  EXPECT_TRUE(check_topology(state.mesh).is_valid());
+  for (VertId v : mesh.positions.ids()) EXPECT_EQ(state.mesh.positions[v], mesh.positions[v]);
+}
+
+TEST(Targets, AreTheClosestPointsOfASphere) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
+  const HexMesh grid = test::grid_around(sphere.box(), 0.25);
+  FitState state(extract_hexes(grid, carve(grid, sphere, {}, {}).is_kept));
+  update_targets(state, {sphere, nullptr}, 0);
+  int boundary = 0;
+  for (VertId v : state.kind.ids()) {
+    if (!state.is_boundary(v)) continue;
+    ++boundary;
+    EXPECT_NEAR(norm(state.target[v]), 1, 0.01);
+    EXPECT_NEAR(distance(state.target[v], state.mesh.positions[v]),
+                sphere.distance(state.mesh.positions[v]), 1e-9);
+  }
+  EXPECT_GT(boundary, 100);
+}
+
+TEST(Fit, ReachesASphereWithGoodElements) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(5)));
+  const FitResult result = fit(test::grid_around(sphere.box(), 0.12), sphere, {}, {});
+  const QualitySummary quality = summarize_quality(result.mesh);
+  EXPECT_GT(quality.min_scaled_jacobian, 0.5);
+  EXPECT_GT(quality.avg_scaled_jacobian, 0.85);
+  EXPECT_TRUE(result.report.misses.empty());
+  EXPECT_TRUE(result.report.unproven.empty());
+  EXPECT_TRUE(check_topology(result.mesh).is_valid());
+  const SurfaceDistance distance = measure_distance(result.mesh, sphere, {});
+  EXPECT_LT(distance.max_two_way(), 0.003);  // the sagitta of an edge of 0.12 is 0.0005 diagonals
+}
+
+// The property the stage promises, over rotations and coarse grids that do not suit the shapes.
+TEST(Fit, NeverInvertsOverRandomRotationsOfShapes) {
+  std::mt19937 rng(31);
+  const TriMesh shapes[] = {test::unit_cube_surface(), test::torus_surface(1, 0.35, 40, 20),
+                            test::welded(test::unit_sphere_surface(3))};
+  for (int trial = 0; trial < 9; ++trial) {
+    const SurfaceTree tree(test::randomly_rotated(shapes[trial % 3], rng));
+    const double h = tree.box().diagonal() / (9 + 4 * (trial / 3));
+    const FitResult result = fit(test::grid_around(tree.box(), h), tree, {}, {});
+    ASSERT_GT(result.mesh.num_hexes(), 0u);
+    EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0) << "trial " << trial;
+    EXPECT_TRUE(check_topology(result.mesh).is_valid()) << "trial " << trial;
+  }
+}
+
+TEST(Fit, IsTheSameForAnyNumberOfThreads) {
+  const SurfaceTree torus(test::torus_surface(1, 0.4, 60, 30));
+  const HexMesh grid = test::grid_around(torus.box(), 0.16);
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return fit(grid, torus, {}, {});
+  };
+  const FitResult one = run(1), two = run(2);
+  EXPECT_EQ(one.mesh.positions, two.mesh.positions);
+  EXPECT_EQ(one.mesh.hexes, two.mesh.hexes);
+}
+
+TEST(Fit, NamesTheInvertedHexOfABadBackground) {
+  HexMesh grid = test::box_hex_mesh(3, 3, 3);
+  std::swap(grid.hexes[HexId(5)][0], grid.hexes[HexId(5)][1]);
+  const SurfaceTree cube(test::unit_cube_surface());
+  try {
+    fit(grid, cube, {}, {});
+    FAIL() << "accepted an inverted hex";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::BadArgument);
+    EXPECT_EQ(e.where(), "hex 5");
+  }
+}
+
+TEST(Fit, ReturnsAnEmptyMeshWhenNothingIsKept) {
+  const SurfaceTree cube(test::unit_cube_surface());
+  HexMesh far = test::box_hex_mesh(2, 2, 2);
+  for (Vec3& p : far.positions) p += {10, 0, 0};
+  EXPECT_EQ(fit(far, cube, {}, {}).mesh.num_hexes(), 0u);
+}
+
+TEST(Fit, StopsWhenCancelled) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(3)));
+  std::atomic<bool> cancel{true};
+  Context context;
+  context.cancel = &cancel;
+  EXPECT_THROW(fit(test::grid_around(sphere.box(), 0.3), sphere, {}, context), Error);
+}
+
+}  // namespace
+}  // namespace hexwright
