@@ -49,7 +49,8 @@ inline TriMesh torus_surface(double major, double minor, int around, int across)
 inline TriMesh randomly_rotated(TriMesh surface, std::mt19937& rng) {
   std::normal_distribution<double> normal;
   double q[4], length = 0;
-  for (double& x : q) length += (x = normal(rng)) * x;
+  for (double& x : q) x = normal(rng);
+  for (double x : q) length += x * x;
   for (double& x : q) x /= std::sqrt(length);
   const Vec3 axis{q[1], q[2], q[3]};
   for (Vec3& p : surface.positions) {
