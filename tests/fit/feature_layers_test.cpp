@@ -2,7 +2,7 @@
 #include "fit/feature_layers.h"
 
 #include "boundary_fixtures.h"
-#include "fit/insert_layer.h"
+#include "fit/pad_boundary.h"
 
 namespace hexwright::fitting {
 namespace {
