@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kGateFactor = 2;  ///< of the tolerance; see mesh_surface.h
 
+/// Genus and components against the surface's are the judge's warnings already; a count that is
+/// certainly wrong fails.
 void judge_topology(const RoundInput& input, MeshResult& result) {
   if (!input.expected.is_known || input.options.fit.carve.side != Side::Inside) return;
   const TopologyReport& t = result.verdict.topology;
@@ -16,11 +18,6 @@ void judge_topology(const RoundInput& input, MeshResult& result) {
         "the mesh's boundary has {} components, the surface {}: parts or gaps thinner than the "
         "grid's cells were lost; use deeper levels",
         t.num_boundary_components, input.expected.num_components));
-  else if (t.genus() != input.expected.genus())
-    result.warnings.push_back(
-        fmt::format("the mesh has genus {}, the surface {}: holes or handles thinner than the "
-                    "grid's cells changed; use deeper levels",
-                    t.genus(), input.expected.genus()));
 }
 
 void judge_distance(const RoundInput& input, MeshResult& result) {

@@ -20,6 +20,7 @@ namespace {
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
   options.judge.features = features_for_sizing(options.fit.features, diagonal);
+  if (options.fit.carve.side != Side::Inside) options.judge.distance.quads = JudgedQuads::Labeled;
   const double threshold = options.refine_threshold * options.sizing.tolerance;
   options.judge.distance.hot_threshold = threshold;
   options.judge.distance.spacing = std::min(options.judge.distance.spacing, 1.5 * threshold);

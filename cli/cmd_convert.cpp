@@ -1,0 +1,58 @@
+// hexwright convert: hex meshes, surfaces and grids from one format to another.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "hexwright/io/grid_io.h"
+#include "hexwright/io/mesh_io.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+
+namespace hexwright::cli {
+namespace {
+
+struct ConvertCommand {
+  std::string input, output;
+  bool as_grid = false;
+};
+
+const std::vector<std::string> kSurfaceExtensions = {".obj", ".off", ".stl", ".ply"};
+const std::vector<std::string> kGridOnlyExtensions = {".cells", ".htg"};
+
+void run(const ConvertCommand& cmd, Program& program) {
+  check_outputs({cmd.output});
+  if (has_extension(cmd.input, kSurfaceExtensions)) {
+    require_extension(cmd.output, kSurfaceExtensions);
+    const TriMesh surface = load_surface(cmd.input, program);
+    write_surface(cmd.output, surface);
+    program.console.print(fmt::format("{}: {} triangles", cmd.output, surface.num_tris()));
+  } else if (cmd.as_grid || has_extension(cmd.input, kGridOnlyExtensions) ||
+             has_extension(cmd.output, kGridOnlyExtensions)) {
+    require_extension(cmd.output, grid_extensions());
+    const Grid grid = read_grid(cmd.input);
+    write_grid(cmd.output, grid);
+    program.console.print(fmt::format("{}: {} cells", cmd.output, grid.num_cells()));
+  } else {
+    require_extension(cmd.output, hex_mesh_extensions());
+    const HexMesh mesh = read_hex_mesh(cmd.input);
+    write_hex_mesh(cmd.output, mesh);
+    program.console.print(fmt::format("{}: {} hexes", cmd.output, mesh.num_hexes()));
+  }
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, Program& program) {
+  auto cmd = std::make_shared<ConvertCommand>();
+  CLI::App* sub = app.add_subcommand("convert", "Change the format of a mesh, surface or grid");
+  sub->add_option("input", cmd->input, "Hex mesh, surface or grid")->required();
+  sub->add_option("output", cmd->output, "Same kind, other extension")->required();
+  sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
+  add_console_options(*sub, program);
+  sub->footer("Examples:\n  hexwright convert a.mesh b.inp\n  hexwright convert a.stl b.obj");
+  sub->callback([cmd, &program] { run(*cmd, program); });
+}
+
+}  // namespace hexwright::cli

@@ -1,0 +1,62 @@
+// hexwright grid: the adaptive grid of a surface, before completion.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "hexwright/geometry/prepare_surface.h"
+#include "hexwright/io/atomic_file.h"
+#include "hexwright/io/grid_io.h"
+#include "hexwright/pipeline/report.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+
+namespace hexwright::cli {
+namespace {
+
+struct GridCommand {
+  std::string input, output, report;
+  bool no_loop = false;
+  MeshOptions options;
+};
+
+void run(const GridCommand& cmd, Program& program) {
+  check_outputs({cmd.output, cmd.report});
+  require_extension(cmd.output, grid_extensions());
+  const Context context = program.console.start();
+  const TriMesh surface = load_surface(cmd.input, program);
+  MeshOptions options = cmd.options;
+  if (cmd.no_loop) use_single_pass(options);
+  const SizingResult result = naming_file(cmd.input, [&] {
+    const PreparedSurface prepared = prepare_surface(surface, context);
+    for (const std::string& w : prepared.diagnosis.warnings)
+      program.console.warn(cmd.input + ": " + w);
+    const double diagonal = bounding_box(prepared.mesh).diagonal();
+    const FeatureGraph features =
+        extract_features(prepared.mesh, features_for_sizing(options.fit.features, diagonal));
+    return build_grid(prepared.mesh, features, options.sizing, context);
+  });
+  write_grid(cmd.output, result.grid);
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, sizing_to_json(result));
+  program.console.print(fmt::format("{}: {} cells, levels to {}", cmd.output,
+                                    result.grid.num_cells(), result.reached_level));
+}
+
+}  // namespace
+
+void add_grid_command(CLI::App& app, Program& program) {
+  auto cmd = std::make_shared<GridCommand>();
+  CLI::App* sub = app.add_subcommand("grid", "Adaptive grid of a surface (before completion)");
+  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("-o,--output", cmd->output, "Grid: .cells, .htg, .vtu or .mesh")->required();
+  add_sizing_options(*sub, cmd->options.sizing);
+  sub->add_flag("--no-loop", cmd->no_loop, "The stricter sizing of a single pass");
+  add_feature_options(*sub, cmd->options.fit.features);
+  sub->add_option("--report", cmd->report, "Write counts as JSON");
+  add_console_options(*sub, program);
+  sub->footer("Example:\n  hexwright grid part.stl -o part.cells --sizing thickness");
+  sub->callback([cmd, &program] { run(*cmd, program); });
+}
+
+}  // namespace hexwright::cli

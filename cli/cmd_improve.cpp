@@ -1,0 +1,68 @@
+// hexwright improve: better shapes, same connectivity.
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "hexwright/fit/improve.h"
+#include "hexwright/io/mesh_io.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+
+namespace hexwright::cli {
+namespace {
+
+struct ImproveCommand {
+  std::string input, output, surface;
+  ImproveOptions options;
+};
+
+void run(const ImproveCommand& cmd, Program& program) {
+  check_outputs({cmd.output});
+  require_extension(cmd.output, hex_mesh_extensions());
+  const Context context = program.console.start();
+  HexMesh mesh = read_hex_mesh(cmd.input);
+  ImproveOptions options = cmd.options;
+  std::optional<SurfaceTree> tree;
+  if (!cmd.surface.empty()) {
+    tree.emplace(load_surface(cmd.surface, program));
+    options.slide_on = &*tree;
+  }
+  const ImproveReport report =
+      naming_file(cmd.input, [&] { return improve(mesh, options, context); });
+  write_mesh_with_quality(cmd.output, mesh);
+  program.console.print(
+      fmt::format("{}: scaled Jacobian min {:.4f} -> {:.4f}, average {:.4f} -> {:.4f}", cmd.output,
+                  report.min_before, report.min_after, report.avg_before, report.avg_after));
+  if (report.worst_is_fixed)
+    program.console.print(fmt::format("  the worst hex, {}, is held by the fixed boundary",
+                                      report.worst_hex.value()));
+  if (report.min_after <= 0) {
+    program.console.fail(cmd.output + ": some hexes are still inverted");
+    program.exit_code = FailsGate;
+  }
+}
+
+}  // namespace
+
+void add_improve_command(CLI::App& app, Program& program) {
+  auto cmd = std::make_shared<ImproveCommand>();
+  CLI::App* sub = app.add_subcommand("improve", "Better element shapes, same connectivity");
+  sub->add_option("input", cmd->input, "Hex mesh: MEDIT, VTK or VTU")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("--slide-on", cmd->surface,
+                  "Boundary vertices slide on this surface instead of staying");
+  sub->add_option("--rounds", cmd->options.max_rounds, "At most so many rounds")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  sub->add_option("--goal", cmd->options.goal, "Stop at this least scaled Jacobian")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->capture_default_str();
+  add_console_options(*sub, program);
+  sub->footer("Example:\n  hexwright improve in.vtk -o out.vtk --slide-on part.stl");
+  sub->callback([cmd, &program] { run(*cmd, program); });
+}
+
+}  // namespace hexwright::cli

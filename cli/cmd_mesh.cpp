@@ -1,0 +1,94 @@
+// hexwright mesh: the whole pipeline.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "hexwright/io/atomic_file.h"
+#include "hexwright/io/grid_io.h"
+#include "hexwright/io/mesh_io.h"
+#include "hexwright/pipeline/report.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+#include "picture_file.h"
+#include "verdict_text.h"
+
+namespace hexwright::cli {
+namespace {
+
+struct MeshCommand {
+  std::string input, output, report, picture, grid;
+  bool no_loop = false;
+  MeshOptions options;
+};
+
+void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& console) {
+  console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
+                            result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
+                            result.num_rounds, result.num_rounds == 1 ? "" : "s"));
+  print_verdict(result.verdict, console);
+  for (const StageRecord& stage : result.stages)
+    console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
+}
+
+void run(const MeshCommand& cmd, Program& program) {
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid});
+  require_extension(cmd.output, hex_mesh_extensions());
+  const Context context = program.console.start();
+  const TriMesh surface = load_surface(cmd.input, program);
+  MeshOptions options = cmd.options;
+  if (cmd.no_loop) use_single_pass(options);
+  const MeshResult result =
+      naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
+  program.console.clear_progress();
+
+  if (result.mesh.num_hexes() > 0) {
+    write_mesh_with_quality(cmd.output, result.mesh);
+    if (!cmd.picture.empty())
+      write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  }
+  if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
+  if (!cmd.report.empty())
+    write_file_atomically(cmd.report,
+                          report_to_json(result, options, {cmd.input, cmd.output, num_threads()}));
+  if (result.mesh.num_hexes() > 0) print_summary(cmd, result, program.console);
+  for (const std::string& w : result.warnings) program.console.warn(cmd.input + ": " + w);
+  for (const std::string& f : result.failures) program.console.fail(cmd.input + ": " + f);
+  program.exit_code = result.failures.empty() ? Valid : FailsGate;
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, Program& program) {
+  auto cmd = std::make_shared<MeshCommand>();
+  CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
+  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  add_sizing_options(*sub, cmd->options.sizing);
+  sub->add_flag("--no-loop", cmd->no_loop,
+                "A single pass with a stricter a-priori sizing, instead of refining where the fit "
+                "missed");
+  sub->add_option("--rounds", cmd->options.max_rounds, "At most so many refinements")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  sub->add_option("--max-hexes", cmd->options.max_hexes, "Budget of the background mesh")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_complete_options(*sub, cmd->options.complete);
+  add_fit_options(*sub, cmd->options.fit);
+  sub->add_option("--report", cmd->report, "Write a report as JSON");
+  sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  sub->add_option("--save-grid", cmd->grid, "Write the completed grid (.cells, .htg, .vtu)");
+  add_console_options(*sub, program);
+  sub->footer(
+      "Examples:\n"
+      "  hexwright mesh part.stl -o part.vtu\n"
+      "  hexwright mesh part.stl -o part.vtu --tolerance 0.2% --report part.json --picture "
+      "part.png\n"
+      "  hexwright mesh part.obj -o part.inp --sizing thickness --max-level 6");
+  sub->callback([cmd, &program] { run(*cmd, program); });
+}
+
+}  // namespace hexwright::cli

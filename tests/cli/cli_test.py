@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""Tests of the command line program: exit codes, messages, files through the stages.
+
+Usage: cli_test.py BINARY SOURCE_DIR [unittest arguments]. CTest runs each class as one case.
+"""
+import json
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+BINARY = Path(sys.argv[1])
+SOURCE = Path(sys.argv[2])
+
+CUBE = """v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1
+f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n"""
+COARSE = ["--max-level", "3", "--rounds", "0"]
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name)
+        self.cube = self.path / "cube.obj"
+        self.cube.write_text(CUBE)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_binary(self, *arguments, expect=0):
+        done = subprocess.run([str(BINARY), *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, expect, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def files(self):
+        return sorted(p.name for p in self.path.iterdir())
+
+
+class Usage(CliTest):
+    def test_help_lists_the_commands_and_exits_with_0(self):
+        text = self.run_binary("--help").stdout
+        for command in ("mesh", "grid", "complete", "dual", "fit", "improve", "check", "convert", "picture"):
+            self.assertRegex(text, rf"\n  {command} ")
+            page = self.run_binary(command, "--help").stdout
+            self.assertIn(f"hexwright {command}", page)
+            self.assertIn("Example", page)
+
+    def test_wrong_command_lines_exit_with_2(self):
+        for arguments in ([], ["nonsense"], ["mesh"], ["mesh", self.cube],
+                          ["mesh", self.cube, "-o", self.path / "a.vtu", "--pairing", "nothing"],
+                          ["mesh", self.cube, "-o", self.path / "a.vtu", "--tolerance", "large"],
+                          ["mesh", self.cube, "-o", self.path / "a.vtu", "--tolerance", "200%"],
+                          ["mesh", self.cube, "-o", self.path / "a.vtu", "--threads", "-1"],
+                          ["mesh", self.cube, "-o", self.path / "a.docx"],
+                          ["mesh", self.cube, "-o", self.path / "a.vtu", "--min-level", "5", "--max-level", "4"]):
+            done = self.run_binary(*arguments, expect=2)
+            self.assertTrue(done.stderr.strip(), arguments)
+        self.assertEqual(self.files(), ["cube.obj"])
+
+    def test_version(self):
+        self.assertRegex(self.run_binary("--version").stdout, r"hexwright \d+\.\d+\.\d+")
+
+
+class BadInput(CliTest):
+    def check_refused(self, *arguments, about):
+        done = self.run_binary(*arguments, expect=3)
+        lines = done.stderr.strip().splitlines()
+        self.assertEqual(len([l for l in lines if l.startswith("error: ")]), 1, done.stderr)
+        self.assertRegex(done.stderr, about)
+
+    def test_a_missing_file_is_named(self):
+        self.check_refused("mesh", self.path / "none.obj", "-o", self.path / "a.vtu", about=r"none\.obj")
+        self.check_refused("check", self.path / "none.vtu", about=r"none\.vtu")
+        self.check_refused("complete", self.path / "none.cells", "-o", self.path / "a.cells", about=r"none\.cells")
+
+    def test_a_bad_line_is_named(self):
+        bad = self.path / "bad.obj"
+        bad.write_text(CUBE + "f 1 2 99\n")
+        self.check_refused("mesh", bad, "-o", self.path / "a.vtu", about=r"bad\.obj:15: .*99")
+
+    def test_geometry_that_encloses_nothing_is_refused_by_name(self):
+        flat = self.path / "flat.obj"
+        flat.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.check_refused("mesh", flat, "-o", self.path / "a.vtu", about=r"flat\.obj: ")
+        self.assertNotIn("a.vtu", self.files())
+
+    def test_an_output_that_cannot_be_written_is_found_before_the_work(self):
+        self.check_refused("mesh", self.cube, "-o", self.path / "no" / "a.vtu", about=r"no/a\.vtu")
+        self.check_refused("mesh", self.cube, "-o", self.path / "a.vtu", "--report", self.path, about=r"folder")
+
+    def test_grids_that_do_not_tile_are_refused(self):
+        gap = self.path / "gap.cells"
+        gap.write_text("1 0 0 0\n1 1 0 0\n")
+        self.check_refused("complete", gap, "-o", self.path / "a.cells", about=r"gap\.cells")
+        self.assertEqual(self.files(), ["cube.obj", "gap.cells"])
+
+
+class Mesh(CliTest):
+    def test_writes_a_valid_mesh_a_report_and_a_picture(self):
+        out, report, picture = (self.path / n for n in ("a.vtu", "a.json", "a.png"))
+        done = self.run_binary("mesh", self.cube, "-o", out, "--report", report, "--picture", picture, *COARSE)
+        self.assertIn("hexes", done.stdout)
+        self.assertEqual(self.files(), ["a.json", "a.png", "a.vtu", "cube.obj"])
+        data = json.loads(report.read_text())
+        self.assertTrue(data["is_valid"])
+        self.assertEqual(data["verdict"]["quality"]["num_inverted"], 0)
+        self.assertGreater(data["peak_memory_bytes"], 1 << 20)
+        self.assertEqual({s["name"] for s in data["stages"]},
+                         {"prepare", "features", "surface tree", "sizing", "complete", "dual", "fit", "judge"})
+        self.assertEqual(sum(data["sizing"]["cells_per_level"]), data["sizing"]["cells"])
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.run_binary("check", out, self.cube)
+
+    def test_quiet_says_nothing(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--quiet", *COARSE)
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_progress_stays_off_a_pipe(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE)
+        self.assertNotIn("\r", done.stdout + done.stderr)
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        for extra in ([], ["--sizing", "thickness"], ["--no-loop"]):
+            outputs = []
+            for threads in (1, 2):
+                out = self.path / f"t{threads}.vtu"
+                self.run_binary("mesh", self.cube, "-o", out, "--threads", threads, "--max-level", "3", *extra)
+                outputs.append(out.read_bytes())
+            self.assertEqual(*outputs)
+
+    def test_every_format_reads_back(self):
+        for extension in ("vtu", "vtk", "mesh"):
+            out = self.path / f"a.{extension}"
+            self.run_binary("mesh", self.cube, "-o", out, *COARSE)
+            self.run_binary("check", out, self.cube)
+
+    def test_an_interrupt_leaves_no_output(self):
+        out = self.path / "a.vtu"
+        process = subprocess.Popen([str(BINARY), "mesh", str(self.cube), "-o", str(out), "--min-level", "7",
+                                    "--max-level", "8", "--max-hexes", "100000000"], stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 4, errors)
+        self.assertIn("cancelled", errors)
+        self.assertEqual(self.files(), ["cube.obj"])
+
+    def test_a_budget_that_leaves_no_mesh_exits_with_4(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--max-hexes", "10", expect=4)
+        self.assertIn("budget of 10", done.stderr)
+
+
+class Stages(CliTest):
+    def test_files_go_through_all_stages(self):
+        grid, paired, hexes, fitted = (self.path / n for n in ("g.cells", "p.cells", "h.mesh", "f.vtu"))
+        self.run_binary("grid", self.cube, "-o", grid, "--max-level", "3", "--min-level", "3")
+        self.assertIn("# origin", grid.read_text())
+        for pairing in ("blocks", "octree"):
+            self.run_binary("complete", grid, "-o", paired, "--pairing", pairing)
+            self.assertRegex(self.run_binary("check", paired).stdout, r"pairing +blocks")
+            self.run_binary("dual", paired, "-o", hexes)
+            self.run_binary("check", hexes)
+            self.run_binary("fit", hexes, self.cube, "-o", fitted)
+            self.run_binary("check", fitted, self.cube)
+
+    def test_an_unbalanced_grid_fails_the_check_and_the_dual(self):
+        lines = [f"1 {i & 1} {i >> 1 & 1} {i >> 2}" for i in range(1, 8)]
+        lines += [f"2 {i & 1} {i >> 1 & 1} {i >> 2}" for i in range(0, 7)]
+        lines += [f"3 {2 + (i & 1)} {2 + (i >> 1 & 1)} {2 + (i >> 2)}" for i in range(8)]
+        grid = self.path / "g.cells"
+        grid.write_text("\n".join(lines) + "\n")
+        done = self.run_binary("check", grid, expect=1)
+        self.assertIn("hexwright complete", done.stderr)
+        self.run_binary("dual", grid, "-o", self.path / "h.mesh", expect=3)
+        self.run_binary("complete", grid, "-o", self.path / "p.cells", "--balance", "strong")
+        self.assertRegex(self.run_binary("check", self.path / "p.cells").stdout, r"balance +strong")
+
+    def test_convert_keeps_meshes_surfaces_and_grids(self):
+        hexes = self.path / "h.vtu"
+        self.run_binary("mesh", self.cube, "-o", hexes, *COARSE)
+        count = re.search(r"(\d+) hexes", self.run_binary("convert", hexes, self.path / "h.mesh").stdout)[1]
+        again = self.run_binary("convert", self.path / "h.mesh", self.path / "h.vtk").stdout
+        self.assertIn(f"{count} hexes", again)
+        self.run_binary("convert", self.cube, self.path / "cube.stl")
+        data = (self.path / "cube.stl").read_bytes()
+        self.assertEqual(struct.unpack("<I", data[80:84])[0], 12)
+        self.run_binary("grid", self.cube, "-o", self.path / "g.cells", "--max-level", "3")
+        self.run_binary("convert", self.path / "g.cells", self.path / "g.htg")
+        self.run_binary("convert", self.path / "g.htg", self.path / "g2.cells")
+        leaves = lambda n: sorted(l for l in (self.path / n).read_text().splitlines() if not l.startswith("#"))
+        self.assertEqual(leaves("g.cells"), leaves("g2.cells"))
+
+    def test_improve_never_lowers_the_minimum(self):
+        hexes = self.path / "h.mesh"
+        self.run_binary("mesh", self.cube, "-o", hexes, *COARSE)
+        text = self.run_binary("improve", hexes, "-o", self.path / "i.mesh").stdout
+        before, after = map(float, re.search(r"min (-?[\d.]+) -> (-?[\d.]+)", text).groups())
+        self.assertGreaterEqual(after, before)
+
+
+class Check(CliTest):
+    HEX = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{}\nHexahedra\n1\n1 2 4 3 5 6 8 7 0\nEnd\n"
+    CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+
+    def write_hex(self, corners):
+        path = self.path / "h.mesh"
+        path.write_text(self.HEX.format("\n".join(f"{x} {y} {z} 0" for x, y, z in corners)))
+        return path
+
+    def test_a_cube_is_valid(self):
+        data = json.loads(self.run_binary("check", self.write_hex(self.CORNERS), "--json").stdout)
+        self.assertTrue(data["valid"])
+        self.assertAlmostEqual(data["quality"]["min_scaled_jacobian"], 1)
+
+    def test_an_inverted_hex_exits_with_1(self):
+        mirrored = [(-x, y, z) for x, y, z in self.CORNERS]
+        done = self.run_binary("check", self.write_hex(mirrored), "--report", self.path / "r.json", expect=1)
+        self.assertIn("inverted", done.stdout)
+        self.assertFalse(json.loads((self.path / "r.json").read_text())["valid"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
