@@ -152,19 +152,6 @@ void take_round(Round&& round, MeshResult& result) {
 
 }  // namespace
 
-void use_single_pass(MeshOptions& options) {
-  options.max_rounds = 0;
-  options.sizing.deviation_factor = 1;
-  options.sizing.crease_proximity = 0.75;
-}
-
-FeatureOptions features_for_sizing(const FeatureOptions& options, double diagonal) {
-  constexpr double kPruning = 0.03;
-  FeatureOptions result = options;
-  result.min_length = kPruning * diagonal;
-  return result;
-}
-
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const Context& context) {
   const Stopwatch clock;
   MeshResult result;
