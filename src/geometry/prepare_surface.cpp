@@ -166,10 +166,10 @@ std::vector<std::string> describe(const SurfaceDiagnosis& d, const Orientation& 
     said.push_back("the surface cannot be oriented consistently at " +
                    counted(o.num_twisted_edges, "edge", "edges") +
                    "; the result may be wrong there");
-  if (o.num_nested_solids > 0)
-    said.push_back(counted(o.num_nested_solids, "closed part lies", "closed parts lie") +
-                   " inside another with the same orientation and counts as solid; turn it inside "
-                   "out if it is a cavity");
+  if (d.num_hidden_parts > 0)
+    said.push_back(counted(d.num_hidden_parts, "part", "parts") +
+                   " with the solid on both sides ignored; turn a closed one inside out if it is "
+                   "a cavity");
   if (d.num_boundary_edges > 0)
     said.push_back("the surface is open along " + counted(d.num_boundary_edges, "edge", "edges") +
                    "; inside is decided by the winding number");
@@ -201,6 +201,7 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
   const Orientation orientation = orient_surface(work.mesh, context);
   diagnosis.num_flipped_tris = orientation.num_repaired;
   diagnosis.is_flipped_whole = orientation.num_turned_parts == orientation.num_parts;
+  diagnosis.num_hidden_parts = drop_hidden_parts(work);
   judge_edges(work.mesh, diagnosis);
   check_volume(work.mesh, diagnosis.is_closed);
 

@@ -35,4 +35,9 @@ std::size_t remove_degenerate_tris(WorkingSurface& surface, std::size_t& num_kep
 /// cancel, unless that opens the surface. Returns how many are dropped.
 std::size_t remove_duplicate_tris(WorkingSurface& surface);
 
+/// Removes parts with the solid on both of their sides. They bound nothing, but sizing, features
+/// and distances would follow them. The region with winding number above one half stays the same.
+/// The surface must be oriented. Returns how many parts go.
+std::size_t drop_hidden_parts(WorkingSurface& surface);
+
 }  // namespace hexwright

@@ -239,8 +239,6 @@ Orientation orient_surface(TriMesh& mesh, const Context& context) {
       result.num_repaired += part.was_repaired;
     }
     result.num_turned_parts += turns[i] && !part.was_repaired;
-    const double volume6 = turns[i] ? -part.volume6 : part.volume6;
-    result.num_nested_solids += part.is_closed && part.containers.size() % 2 == 1 && volume6 > 0;
   }
   return result;
 }

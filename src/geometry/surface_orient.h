@@ -11,7 +11,6 @@ struct Orientation {
   std::size_t num_turned_parts = 0;   ///< components turned inside out as a whole
   std::size_t num_parts = 0;          ///< components connected across edges of two triangles
   std::size_t num_twisted_edges = 0;  ///< edges where no consistent orientation exists
-  std::size_t num_nested_solids = 0;  ///< closed parts inside another with the same orientation
 };
 
 /// Turns triangles of `mesh` (in the unit frame). Inside a component the larger area wins. A

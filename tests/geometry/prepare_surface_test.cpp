@@ -166,11 +166,35 @@ TEST(PrepareSurface, CavitiesStayCavitiesWhateverTheWholeOrientation) {
   EXPECT_NEAR(volume(prepare_surface(reversed(cube_in_cube(true)), {}).mesh), expected, 1e-12);
 }
 
-TEST(PrepareSurface, AmbiguousNestingIsKeptWithAWarning) {
+TEST(PrepareSurface, ShellsInsideASolidAreIgnoredWithAWarning) {
   const auto p = prepare_surface(cube_in_cube(false), {});
-  EXPECT_NEAR(volume(p.mesh), 1.125, 1e-12);
+  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+  EXPECT_EQ(p.diagnosis.num_hidden_parts, 1u);
   ASSERT_EQ(p.diagnosis.warnings.size(), 1u);
   EXPECT_NE(p.diagnosis.warnings[0].find("cavity"), std::string::npos);
+}
+
+TEST(PrepareSurface, SolidInsideACavityIsKept) {
+  TriMesh three = cube_in_cube(true);
+  append(three, test::unit_cube_surface(), 0.25, {0.375, 0.375, 0.375});
+  const auto p = prepare_surface(three, {});
+  EXPECT_NEAR(volume(p.mesh), 1 - 0.125 + 0.015625, 1e-12);
+  EXPECT_TRUE(p.diagnosis.warnings.empty());
+}
+
+TEST(PrepareSurface, AWallAcrossTheInsideIsIgnored) {
+  TriMesh cube = test::unit_cube_surface();
+  cube.tris.push_back({VertId(0), VertId(1), VertId(7)});
+  cube.tris.push_back({VertId(0), VertId(7), VertId(6)});
+  const auto p = prepare_surface(cube, {});
+  EXPECT_TRUE(p.diagnosis.is_closed);
+  EXPECT_EQ(p.mesh.tris, test::unit_cube_surface().tris);
+}
+
+TEST(PrepareSurface, OverlappingSolidsAreKeptWhole) {
+  TriMesh two = test::unit_cube_surface();
+  append(two, test::unit_cube_surface(), 1, {0.5, 0.4, 0.3});
+  EXPECT_EQ(prepare_surface(two, {}).mesh.num_tris(), 24u);
 }
 
 TEST(PrepareSurface, OnePieceInsideOutAmongSeveralIsTurned) {

@@ -19,6 +19,7 @@ struct SurfaceDiagnosis {
   std::size_t num_nonmanifold_edges =
       0;                             ///< after the clean-up: edges with three or more triangles
   std::size_t num_flipped_tris = 0;  ///< re-oriented to agree with their component
+  std::size_t num_hidden_parts = 0;  ///< dropped: walls and shells inside the solid
   bool is_flipped_whole = false;     ///< the surface pointed inwards and was turned as a whole
   bool is_closed = false;  ///< every edge has exactly two, consistently oriented triangles
   std::vector<std::string> warnings;  ///< one sentence each, for the user
