@@ -13,6 +13,7 @@ class TriangleSamples {
  public:
   /// The surface must outlive the samples.
   TriangleSamples(const TriMesh& surface, double spacing);
+  TriangleSamples(TriMesh&&, double) = delete;
 
   std::size_t size() const { return used_verts_.size() + offset_.back(); }
 

@@ -35,13 +35,14 @@ void check_options(const HexMesh& mesh, const PictureOptions& options) {
   if (const auto issue = mesh.find_problem()) require(false, issue->message.c_str());
 }
 
-std::vector<Vec3> used_positions(const HexMesh& mesh) {
-  IdVector<VertId, char> is_used(mesh.num_verts(), 0);
-  for (const auto& hex : mesh.hexes)
-    for (VertId v : hex) is_used[v] = 1;
+// Vertices of the faces, each once.
+std::vector<Vec3> visible_positions(const HexMesh& mesh, const std::vector<VisibleFace>& faces) {
+  IdVector<VertId, char> is_visible(mesh.num_verts(), 0);
+  for (const VisibleFace& visible : faces)
+    for (VertId v : face_verts(mesh, visible.face)) is_visible[v] = 1;
   std::vector<Vec3> points;
   for (VertId v : mesh.positions.ids())
-    if (is_used[v]) points.push_back(mesh.positions[v]);
+    if (is_visible[v]) points.push_back(mesh.positions[v]);
   return points;
 }
 
@@ -89,14 +90,14 @@ ShadedQuad shade(const HexMesh& mesh, const VisibleFace& visible, const Camera& 
   return quad;
 }
 
-std::vector<ShadedQuad> shade_faces(const HexMesh& mesh, const std::vector<double>& values,
-                                    const Camera& camera, const PictureOptions& options) {
-  const auto faces = find_visible_faces(mesh, options.cut);
+std::vector<ShadedQuad> shade_faces(const HexMesh& mesh, const std::vector<VisibleFace>& faces,
+                                    const std::vector<double>& values, const Camera& camera,
+                                    const PictureOptions& options) {
   const bool is_faded = options.cut && options.fade_boundary;
   std::vector<ShadedQuad> quads(faces.size());
   parallel_for(faces.size(), [&](std::size_t i) {
     Color color = quality_color(values[faces[i].face.hex.index()]);
-    if (is_faded && faces[i].is_boundary) color = mix(color, {0.93F, 0.92F, 0.90F}, 0.8F);
+    if (is_faded && faces[i].is_boundary) color = mix(color, {0.97F, 0.96F, 0.94F}, 0.85F);
     quads[i] = shade(mesh, faces[i], camera, color);
     if (!options.draw_edges) quads[i].line_share = 0;
   });
@@ -120,11 +121,12 @@ Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options) {
   Image image{options.width, options.height, {}};
   const auto values =
       options.values.empty() ? compute_scaled_jacobians(mesh).raw() : options.values;
-  const Camera camera(used_positions(mesh), options.view_direction,
+  const auto faces = find_visible_faces(mesh, options.cut);
+  const Camera camera(visible_positions(mesh, faces), options.view_direction,
                       place_viewport(image, options.draw_legend));
   RasterOptions raster_options{options.width, options.height, options.supersample, 1};
   raster_options.line_width = std::max(0.7, options.width / 1100.0);
-  Raster raster = rasterize(shade_faces(mesh, values, camera, options), raster_options);
+  Raster raster = rasterize(shade_faces(mesh, faces, values, camera, options), raster_options);
   apply_ambient_occlusion(raster, camera.focal_length());
   copy_pixels(raster, image);
   if (options.draw_legend) draw_legend(image, options.legend_title, values);

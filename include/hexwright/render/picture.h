@@ -39,7 +39,7 @@ struct Image {
 
 /// Draws the faces that no other hex covers, each in its hex's colour, with the hexes' edges. Faces
 /// are opaque and hide each other by depth, so that non-conforming and inverted hexes are drawn as
-/// they are. The camera frames the whole mesh, cut or not. Throws Error{BadArgument} for options
+/// they are. The camera frames what is drawn. Throws Error{BadArgument} for options
 /// out of range, or values whose number is not that of the hexes.
 Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options);
 
