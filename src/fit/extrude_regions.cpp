@@ -81,7 +81,8 @@ class Extrusion {
     for (QuadId q : marked_.graph.quads(v)) {
       if (!is_in(q)) continue;
       const auto& quad = state_.quads[q.index()];
-      const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
+      const auto k =
+          static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
       const Vec3 a = state_.mesh.positions[quad[(k + 1) % 4]] - o;
       const Vec3 b = state_.mesh.positions[quad[(k + 3) % 4]] - o;
       normals.push_back(normalized(cross(a, b)));

@@ -32,8 +32,7 @@ CurveVerdicts judge_curves(const FitState& state, const FeatureGraph& features,
       r = std::max(r, state.residual(v));
     } else if (state.kind[v] == VertKind::Corner && state.residual(v) > limit) {
       const CurveId c = shortest_curve_at(features, mapping, state.feature_point[v]);
-      if (c.is_valid())
-        verdicts.residual[c] = std::max(verdicts.residual[c], state.residual(v));
+      if (c.is_valid()) verdicts.residual[c] = std::max(verdicts.residual[c], state.residual(v));
     }
   }
   for (CurveId c : features.curves.ids()) {

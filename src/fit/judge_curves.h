@@ -1,16 +1,17 @@
 // How well mapped curves are met in the end, and which are better dropped.
 #pragma once
 
-#include "fit/feature_marks.h"
 #include "hexwright/fit/fit.h"
+
+#include "fit/feature_marks.h"
 
 namespace hexwright::fitting {
 
 /// Requires up-to-date targets.
 struct CurveVerdicts {
-  IdVector<CurveId, double> residual;  ///< largest distance of a vertex from its curve or corner, in
-                                       ///< sizes; of mapped curves
-  IdVector<CurveId, char> is_bad;      ///< mapped, and the residual is above the limit
+  IdVector<CurveId, double> residual;  ///< largest distance of a vertex from its curve or corner,
+                                       ///< in sizes; of mapped curves
+  IdVector<CurveId, char> is_bad;  ///< mapped, and the residual is above the limit
   std::size_t num_bad = 0;
   double bad_length = 0;  ///< of the surface's curves that are bad or not mapped
 };

@@ -54,12 +54,10 @@ class GroupFinder {
       roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
       if (roots.size() < 2) continue;
       for (int r : roots) {
-        const QuadFans fans =
-            find_quad_fans(marked_, v, [&](QuadId q) { return root(q) == r; });
+        const QuadFans fans = find_quad_fans(marked_, v, [&](QuadId q) { return root(q) == r; });
         const auto num_marked = fans.marked_outside.size();
-        const bool is_feasible =
-            fans.num_inside == 1 && fans.num_outside == 1 && num_marked <= 1 &&
-            (num_marked == 0 || state_.kind[v] == VertKind::Corner);
+        const bool is_feasible = fans.num_inside == 1 && fans.num_outside == 1 && num_marked <= 1 &&
+                                 (num_marked == 0 || state_.kind[v] == VertKind::Corner);
         if (is_feasible) continue;
         sets_.unite(r, roots[0] == r ? roots[1] : roots[0]);
         any = true;

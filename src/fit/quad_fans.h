@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "fit/feature_layers.h"
 #include "hexwright/base/function_ref.h"
+
+#include "fit/feature_layers.h"
 
 namespace hexwright::fitting {
 

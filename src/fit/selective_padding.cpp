@@ -38,8 +38,7 @@ void transfer_features(const FitState& scaffold, const FeatureMarks& scaffold_ma
   marks.region_to_patch = scaffold_marks.region_to_patch;
   std::vector<QuadLabel> labels;
   for (QuadId q : scaffold_marks.quad_to_region.ids())
-    labels.push_back(
-        {sorted_verts(scaffold.quads[q.index()]), scaffold_marks.quad_to_region[q]});
+    labels.push_back({sorted_verts(scaffold.quads[q.index()]), scaffold_marks.quad_to_region[q]});
   restore_regions(state, std::move(labels), marks);
 }
 
@@ -118,7 +117,8 @@ class SelectivePadder {
   bool extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) {
     IdVector<RegionId, char> is_chosen(groups_.region_to_group.size(), 0);
     for (RegionId r : is_chosen.ids())
-      is_chosen[r] = std::find(batch.begin(), batch.end(), groups_.region_to_group[r]) != batch.end();
+      is_chosen[r] =
+          std::find(batch.begin(), batch.end(), groups_.region_to_group[r]) != batch.end();
     return extrude_regions(attempt.state, attempt.marks, *target_.features, is_chosen);
   }
 
@@ -135,10 +135,9 @@ class SelectivePadder {
     std::vector<char> is_used(attempt.state.num_verts(), 0);
     std::vector<GroupId> batch, rest;
     for (GroupId g : todo) {
-      const bool is_blocked =
-          (keeps_order && !rest.empty()) ||
-          std::any_of(verts[g].begin(), verts[g].end(),
-                      [&](VertId v) { return is_used[v.index()] != 0; });
+      const bool is_blocked = (keeps_order && !rest.empty()) ||
+                              std::any_of(verts[g].begin(), verts[g].end(),
+                                          [&](VertId v) { return is_used[v.index()] != 0; });
       if (is_blocked) {
         rest.push_back(g);
         continue;

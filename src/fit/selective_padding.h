@@ -2,16 +2,17 @@
 // convex curves, instead of a layer under everything.
 #pragma once
 
-#include "fit/feature_layers.h"
 #include "hexwright/base/context.h"
+
+#include "fit/feature_layers.h"
 
 namespace hexwright::fitting {
 
 struct SelectivePaddingReport {
-  std::size_t num_groups = 0;    ///< groups of regions
-  std::size_t num_needed = 0;    ///< of them need a sheet
-  std::size_t num_sheets = 0;    ///< got one
-  std::size_t num_restarts = 0;  ///< times the order was changed because a sheet did not fit
+  std::size_t num_groups = 0;        ///< groups of regions
+  std::size_t num_needed = 0;        ///< of them need a sheet
+  std::size_t num_sheets = 0;        ///< got one
+  std::size_t num_restarts = 0;      ///< times the order was changed because a sheet did not fit
   std::size_t num_failed_quads = 0;  ///< quads of groups that need a sheet and got none
 };
 

@@ -1,0 +1,121 @@
+// Selective padding: valid, consistently marked, and cheaper than a layer everywhere.
+#include "fit/selective_padding.h"
+
+#include "hexwright/quality/hex_quality.h"
+
+#include "boundary_fixtures.h"
+#include "fit/curve_convexity.h"
+#include "fit/pad_boundary.h"
+#include "fit/padding_groups.h"
+#include "fit/sweep.h"
+#include "fit/targets.h"
+
+namespace hexwright::fitting {
+namespace {
+
+double min_jacobian(const HexMesh& mesh) {
+  const auto quality = compute_scaled_jacobians(mesh);
+  return *std::min_element(quality.begin(), quality.end());
+}
+
+std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+  if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
+  if (!(min_jacobian(state.mesh) > 0)) return "inverted";
+  const auto problem = find_problem(state, marks);
+  return problem ? problem->message : "";
+}
+
+/// Carves a grid, pads it everywhere, fits it smoothly and maps the features.
+struct Scaffold {
+  Scaffold(const TriMesh& s, const HexMesh& grid)
+      : surface(s),
+        tree(surface),
+        features(extract_features(surface, {})),
+        carved(extract_hexes(grid, carve(grid, tree, {}, {}).is_kept)),
+        padded(carved) {
+    pad_boundary(padded);
+    run_schedule(padded, {tree, nullptr}, {{0, 1, 0}, geometric_weights(1, 300, 8), 2, 0.03, false},
+                 {});
+    attached = attach_features(padded, tree, features, {});
+  }
+  SelectivePadding pad() const {
+    return pad_selectively(carved, padded, attached.marks, {tree, &features}, {});
+  }
+  TriMesh surface;
+  SurfaceTree tree;
+  FeatureGraph features;
+  FitState carved, padded;
+  /// Hexes of the alternative: the layer everywhere, and pillows under squeezed regions.
+  std::size_t num_hexes_everywhere() const {
+    FitState state = padded;
+    FeatureMarks marks = attached.marks;
+    pillow_squeezed_quads(state, marks, {});
+    return state.mesh.num_hexes();
+  }
+  AttachedFeatures attached;
+};
+
+TriMesh turned_cube(double angle) {
+  TriMesh cube = test::unit_cube_surface();
+  test::transform(cube.positions, [&](const Vec3& p) {
+    return test::rotated((p - Vec3{.5, .5, .5}) * 8, angle) + Vec3{8, 8, 8};
+  });
+  return cube;
+}
+
+TEST(SelectivePadding, AddsNothingToABoxInLineWithItsGrid) {
+  TriMesh cube = test::unit_cube_surface();
+  test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
+  const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
+  const SelectivePadding result = s.pad();
+  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(result.report.num_groups, 6u);
+  EXPECT_EQ(result.report.num_needed, 0u);
+  EXPECT_EQ(result.state.mesh.num_hexes(), 216u);
+}
+
+class SelectivePaddingTurned : public ::testing::TestWithParam<double> {};
+
+TEST_P(SelectivePaddingTurned, IsValidAndSmaller) {
+  const Scaffold s(turned_cube(GetParam()), test::box_hex_mesh(16, 16, 16));
+  ASSERT_EQ(problem_of(s.padded, s.attached.marks), "");
+  const SelectivePadding result = s.pad();
+  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_LE(result.report.num_sheets, result.report.num_needed);
+  EXPECT_GT(result.report.num_sheets, 0u);
+  EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+  // The curves keep their length in edges or gain some; corners stay corners.
+  EXPECT_GE(result.marks.edges.size(), s.attached.marks.edges.size());
+  std::size_t corners = 0;
+  for (VertKind kind : result.state.kind) corners += kind == VertKind::Corner ? 1 : 0;
+  EXPECT_EQ(corners, 8u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, SelectivePaddingTurned, ::testing::Values(0.1, 0.25, 0.4, 0.6));
+
+TEST(SelectivePadding, UnitesRegionsAcrossConcaveCurves) {
+  TriMesh surface =
+      test::surface_of(test::voxels(6, [](const Vec3& p) { return p.x < 3 || p.z < 3; }));
+  const auto shares = compute_convex_shares(surface, extract_features(surface, {}));
+  EXPECT_EQ(std::count(shares.begin(), shares.end(), 0.0), 1);
+  EXPECT_EQ(std::count(shares.begin(), shares.end(), 1.0), 17);
+  test::transform(surface.positions, [](const Vec3& p) {
+    return test::rotated((p - Vec3{3, 3, 3}) * 1.5, 0.3) + Vec3{8, 8, 8};
+  });
+  const Scaffold s(surface, test::box_hex_mesh(16, 16, 16));
+  const SelectivePadding result = s.pad();
+  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_LT(result.report.num_groups, 8u);
+  EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+}
+
+TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
+  const Scaffold s(test::cylinder_surface(8, 5.3, 3.1, 12.2, 64), test::box_hex_mesh(16, 16, 16));
+  const SelectivePadding result = s.pad();
+  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_GT(result.report.num_sheets, 0u);
+  EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+}
+
+}  // namespace
+}  // namespace hexwright::fitting
