@@ -12,9 +12,12 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "fit/feature_layers.h"
 #include "fit/finish.h"
+#include "fit/judge_curves.h"
 #include "fit/pad_boundary.h"
 #include "fit/pass_clock.h"
+#include "fit/selective_padding.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
 
@@ -67,10 +70,22 @@ std::vector<HexId> find_unproven(const HexMesh& mesh) {
   return unproven;
 }
 
+// One mapping of the features with everything that follows from it.
+struct Attempt {
+  FitState state;
+  FeatureMapping mapping;
+  FeatureMarks marks;
+  CurveVerdicts verdicts;
+};
+
 class Fitter {
  public:
   Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
-      : surface_(surface), options_(options), context_(context), clock_(context, report_.seconds) {}
+      : surface_(surface),
+        tree_(surface.surface()),
+        options_(options),
+        context_(context),
+        clock_(context, report_.seconds) {}
 
   FitResult run(const HexMesh& background) {
     clock_.run("check input", 0.0, [&] { require_valid(background); });
@@ -78,17 +93,16 @@ class Fitter {
     clock_.run("carve", 0.02, [&] { kept = keep_hexes(background); });
     report_.num_hexes_carved = kept.num_hexes();
     if (kept.num_hexes() == 0) return {{}, std::move(report_)};
-    FitState state(std::move(kept));
-    clock_.run("pad", 0.2, [&] { pad_boundary(state); });
-    clock_.run("fit1", 0.25, [&] { fit_smooth(state); });
-    clock_.run("fit3", 0.5, [&] { fit_closely(state); });
-    finish(state);
-    report_.num_hexes_padded = state.mesh.num_hexes();
-    report_.misses = find_misses(state);
-    report_.unproven = find_unproven(state.mesh);
-    HEXWRIGHT_ASSERT(!find_inverted(state.mesh).is_valid());
-    remove_unused_verts(state.mesh);
-    return {std::move(state.mesh), std::move(report_)};
+    const FitState carved(std::move(kept));
+    FitState scaffold = carved;
+    clock_.run("pad", 0.2, [&] { pad_boundary(scaffold); });
+    clock_.run("fit1", 0.25, [&] { fit_smooth(scaffold, false); });
+    clock_.run("find features", 0.35, [&] { find_features(scaffold); });
+    Attempt result = fit_features(carved, scaffold);
+    clock_.run("polish", 0.9, [&] { polish_worst(result.state, target(), {}, context_); });
+    clock_.run("snap", 0.95,
+               [&] { snap_to_targets(result.state, target(), options_.snap_quality); });
+    return conclude(std::move(result));
   }
 
  private:
@@ -98,12 +112,75 @@ class Fitter {
     return extract_hexes(background, report_.carve.is_kept);
   }
 
-  FitTarget target() const { return {surface_, nullptr}; }
+  FitTarget target() const { return {tree_, &features_}; }
 
-  // From the carve's staircase to the surface, without features.
-  void fit_smooth(FitState& state) {
-    run_schedule(state, target(), {{0, 1, 0}, geometric_weights(1, 300, 8), 2, 0.03, false},
+  // From the carve's staircase to the surface; curves, if mapped, are held at first.
+  void fit_smooth(FitState& state, bool hold_curves) {
+    run_schedule(state, target(), {{0, 1, 0}, geometric_weights(1, 300, 8), 2, 0.03, hold_curves},
                  context_);
+  }
+
+  // Curves that the mesh's edges cannot follow are not looked for.
+  void find_features(const FitState& state) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (VertId v : state.kind.ids()) {
+      if (!state.is_boundary(v)) continue;
+      sum += state.size[v];
+      ++count;
+    }
+    FeatureOptions features = options_.features;
+    features.min_length = 4 * sum / static_cast<double>(std::max<std::size_t>(count, 1));
+    features_ = extract_features(surface_.surface(), features);
+  }
+
+  // Curves that turn out to be met badly are given up and the mapping done anew without them; the
+  // attempt that represents more wins.
+  Attempt fit_features(const FitState& carved, const FitState& scaffold) {
+    FeatureMapOptions map_options;
+    Attempt first = attempt(carved, scaffold, map_options);
+    if (first.verdicts.num_bad == 0) return first;
+    map_options.is_banned = first.verdicts.is_bad;
+    Attempt second = attempt(carved, scaffold, map_options);
+    if (second.verdicts.bad_length < first.verdicts.bad_length) return second;
+    tree_.set_patches(compute_patches(surface_.surface(), features_, mapped_curves(first.mapping)));
+    return first;
+  }
+
+  Attempt attempt(const FitState& carved, const FitState& scaffold,
+                  const FeatureMapOptions& map_options) {
+    Attempt a{scaffold, {}, {}, {}};
+    clock_.run("map features", 0.4, [&] { map_and_pad(carved, map_options, a); });
+    if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
+    clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
+    clock_.run("refit", 0.7, [&] { refit_stuck(a.state, target(), {}, context_); });
+    update_targets(a.state, target(), 0);
+    a.verdicts = judge_curves(a.state, features_, a.mapping);
+    return a;
+  }
+
+  bool is_selective() const { return options_.padding == Padding::Selective && !features_.empty(); }
+
+  void map_and_pad(const FitState& carved, const FeatureMapOptions& map_options, Attempt& a) {
+    AttachedFeatures attached = attach_features(a.state, tree_, features_, map_options);
+    a.mapping = std::move(attached.mapping);
+    a.marks = std::move(attached.marks);
+    if (!is_selective()) return;
+    SelectivePadding padded = pad_selectively(carved, a.state, a.marks, target(), context_);
+    a.state = std::move(padded.state);
+    a.marks = std::move(padded.marks);
+    fit_smooth(a.state, true);
+  }
+
+  // Onto the curves, with layers where the mesh needs them to follow the curves.
+  void fit_curves(Attempt& a) {
+    const std::vector<double> weights = geometric_weights(3, 300, 5);
+    run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
+    PillowOptions pillow;
+    pillow.whole_regions = !is_selective();
+    if (pillow_squeezed_quads(a.state, a.marks, pillow).num_pillows == 0) return;
+    a.state.update_sizes();
+    run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, false}, context_);
   }
 
   // Onto the surface, and from the condition number's energy to the scaled Jacobian's.
@@ -113,15 +190,24 @@ class Fitter {
                  context_);
   }
 
-  void finish(FitState& state) {
-    clock_.run("refit", 0.7, [&] { refit_stuck(state, target(), {}, context_); });
-    clock_.run("polish", 0.85, [&] { polish_worst(state, target(), {}, context_); });
-    clock_.run("snap", 0.95, [&] { snap_to_targets(state, target(), options_.snap_quality); });
+  FitResult conclude(Attempt result) {
+    FitState& state = result.state;
+    HEXWRIGHT_ASSERT(!find_inverted(state.mesh).is_valid());
+    update_targets(state, target(), 0);
+    report_features(state, features_, result.mapping, report_);
+    report_.num_hexes_padded = state.mesh.num_hexes();
+    report_.misses = find_misses(state);
+    report_.unproven = find_unproven(state.mesh);
+    state.mesh.labels = make_labels(state, result.marks);
+    remove_unused_verts(state.mesh);
+    return {std::move(state.mesh), std::move(report_)};
   }
 
   const SurfaceTree& surface_;
+  SurfaceTree tree_;  // its own, for the patches between mapped curves
   const FitOptions& options_;
   const Context& context_;
+  FeatureGraph features_;
   FitReport report_;
   PassClock clock_;
 };
