@@ -8,50 +8,75 @@
 #include "hexwright/base/assert.h"
 
 #include "grid/balance.h"
-#include "grid/blocks.h"
-#include "grid/labelling.h"
+#include "grid/block_sweep.h"
+#include "grid/descent.h"
 #include "grid/nested_sets.h"
 
 namespace hexwright {
 namespace {
 
-/// Cheapest paired superset of one depth's required nodes.
-BrickSet pair_depth(const BrickSet& required, int depth, const LatticeDomain& domain,
-                    CompleteReport& report) {
-  const Clusters clusters = find_clusters(required);
-  const auto costs = block_costs(required, clusters, depth, domain);
-  const LabelSolution solution = solve_labels(costs, find_conflicts(required, clusters));
-  report.num_clusters += clusters.num_clusters;
-  report.largest_group = std::max(report.largest_group, solution.largest_group);
-  report.is_optimal_per_depth = report.is_optimal_per_depth && solution.is_optimal;
-  report.gap += static_cast<std::size_t>(7 * (solution.cost - solution.lower_bound));
-  return blocks_of(required, clusters, solution.labels, depth, domain);
+NestedSets balance_only(const NestedSets& input, Balance balance, const LatticeDomain& domain) {
+  NestedSets out = input;
+  for (std::size_t d = out.size(); d-- > 1;)
+    out[d - 1] = required_above(out[d], static_cast<int>(d), balance, domain, input[d - 1]);
+  return out;
 }
 
-NestedSets sweep(const NestedSets& input, const CompleteOptions& options,
-                 const LatticeDomain& domain, const Context& context, CompleteReport& report) {
-  const int num_depths = static_cast<int>(input.size());
+NestedSets pair_octets(const NestedSets& input, Balance balance, const LatticeDomain& domain) {
   NestedSets out(input.size());
-  for (int d = num_depths - 1; d >= 0; --d) {
-    context.check_cancelled();
-    const BrickSet required =
-        d + 1 < num_depths ? required_above(out[d + 1], d + 1, options.balance, domain, input[d])
-                           : input[d];
-    switch (options.pairing) {
-      case Pairing::None:
-      case Pairing::Sheets:
-        out[d] = required;
-        break;
-      case Pairing::Blocks:
-        out[d] = pair_depth(required, d, domain, report);
-        break;
-      case Pairing::Octree:
-        out[d] = blocks_of_parity(required, kOctreeParity, d, domain);
-        break;
-    }
-    context.progress("complete", 1 - static_cast<double>(d) / num_depths);
+  for (int d = static_cast<int>(input.size()) - 1; d >= 0; --d) {
+    const BrickSet required = d + 1 < static_cast<int>(input.size())
+                                  ? required_above(out[d + 1], d + 1, balance, domain, input[d])
+                                  : input[d];
+    out[d] = blocks_of_parity(required, kOctreeParity, d, domain);
   }
   return out;
+}
+
+NestedSets sweep_blocks(const BlockSweep& sweep, const Context& context, CompleteReport& report) {
+  NestedSets out(sweep.input().size());
+  BrickSet split;
+  for (int d = sweep.num_depths() - 1; d >= 0; --d) {
+    context.check_cancelled();
+    const DepthProblem problem = sweep.pose(sweep.required(d, split), d);
+    count_problem(problem, report);
+    out[d] = split = sweep.split(problem, problem.solution.labels, d);
+    context.progress("complete", 1 - static_cast<double>(d) / sweep.num_depths());
+  }
+  return out;
+}
+
+std::size_t count_nodes(const NestedSets& sets) {
+  std::size_t total = 0;
+  for (const BrickSet& set : sets) total += set.num_nodes();
+  return total;
+}
+
+NestedSets pair_blocks(const NestedSets& input, const CompleteOptions& options,
+                       const LatticeDomain& domain, const Context& context,
+                       CompleteReport& report) {
+  const BlockSweep sweep(input, options.balance, domain);
+  NestedSets out =
+      options.improve ? Descent(sweep, context).run(report) : sweep_blocks(sweep, context, report);
+  // Cheapest depth by depth need not be cheapest in all: sibling octets are blocks too.
+  NestedSets octets = pair_octets(input, options.balance, domain);
+  return count_nodes(octets) < count_nodes(out) ? std::move(octets) : std::move(out);
+}
+
+NestedSets complete_sets(const NestedSets& input, const CompleteOptions& options,
+                         const LatticeDomain& domain, const Context& context,
+                         CompleteReport& report) {
+  context.check_cancelled();
+  switch (options.pairing) {
+    case Pairing::None:
+    case Pairing::Sheets:
+      return balance_only(input, options.balance, domain);
+    case Pairing::Octree:
+      return pair_octets(input, options.balance, domain);
+    case Pairing::Blocks:
+      break;
+  }
+  return pair_blocks(input, options, domain, context, report);
 }
 
 }  // namespace
@@ -63,7 +88,7 @@ CompleteResult complete(const Grid& grid, const CompleteOptions& options, const 
   CompleteResult result;
   CompleteReport& report = result.report;
   const NestedSets input = split_sets_of(grid, domain);
-  const NestedSets output = sweep(input, options, domain, context, report);
+  const NestedSets output = complete_sets(input, options, domain, context, report);
   for (const BrickSet& set : input) report.num_split_input.push_back(set.num_nodes());
   for (const BrickSet& set : output) report.num_split_output.push_back(set.num_nodes());
   result.grid = grid_of(output, grid, domain);

@@ -79,6 +79,13 @@ TEST(Complete, BlocksNeverCostMoreThanOctreePairing) {
   });
 }
 
+TEST(Complete, DescentNeverCostsCells) {
+  for_random_grids(7, 6, [](const Grid& grid, Balance balance) {
+    EXPECT_LE(completed(grid, balance, Pairing::Blocks, true).num_cells(),
+              completed(grid, balance, Pairing::Blocks, false).num_cells());
+  });
+}
+
 TEST(Complete, ReportCountsWhatTheGridHolds) {
   for_random_grids(4, 2, [](const Grid& grid, Balance balance) {
     const CompleteResult result = complete(grid, {balance, Pairing::Blocks, true}, {});

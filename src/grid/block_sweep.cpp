@@ -1,0 +1,33 @@
+// The steps of block pairing at one depth.
+#include "grid/block_sweep.h"
+
+#include <algorithm>
+
+#include "grid/balance.h"
+
+namespace hexwright {
+
+BrickSet BlockSweep::required(int depth, const BrickSet& split_below) const {
+  if (depth + 1 == num_depths()) return input_[depth];
+  return required_above(split_below, depth + 1, balance_, domain_, input_[depth]);
+}
+
+DepthProblem BlockSweep::pose(BrickSet required, int depth) const {
+  DepthProblem out;
+  out.required = std::move(required);
+  out.clusters = find_clusters(out.required);
+  out.costs = block_costs(out.required, out.clusters, depth, domain_);
+  out.conflicts = find_conflicts(out.required, out.clusters);
+  out.solution = solve_labels(out.costs, out.conflicts);
+  return out;
+}
+
+void count_problem(const DepthProblem& problem, CompleteReport& report) {
+  const LabelSolution& solution = problem.solution;
+  report.num_clusters += problem.clusters.num_clusters;
+  report.largest_group = std::max(report.largest_group, solution.largest_group);
+  report.is_optimal_per_depth = report.is_optimal_per_depth && solution.is_optimal;
+  report.gap += static_cast<std::size_t>(7 * (solution.cost - solution.lower_bound));
+}
+
+}  // namespace hexwright

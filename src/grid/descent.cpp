@@ -1,0 +1,203 @@
+// Descent over cluster labels with the true cost over all depths.
+#include "grid/descent.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace hexwright {
+namespace {
+
+// Work allowed beyond the sweep's own, counted in bricks, not in seconds, so that results do not
+// depend on the machine: twice the sweep's, and what takes some milliseconds for small grids.
+constexpr std::size_t kWorkFactor = 2;
+constexpr std::size_t kMinWork = 60'000;
+
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+  return x ^ x >> 31;
+}
+
+std::uint64_t hash_of(const BrickSet& set, int depth) {
+  std::uint64_t h = mix(static_cast<std::uint64_t>(depth) + 1);
+  for (const Brick& b : set.bricks()) h = mix(h ^ mix(b.key)) + mix(b.bits);
+  return h;
+}
+
+/// Each cluster's conflicts, as positions in the problem's list.
+std::vector<std::vector<std::uint32_t>> conflicts_by_cluster(const DepthProblem& problem) {
+  std::vector<std::vector<std::uint32_t>> out(problem.clusters.num_clusters);
+  for (std::uint32_t i = 0; i < problem.conflicts.size(); ++i) {
+    out[problem.conflicts[i].first].push_back(i);
+    out[problem.conflicts[i].second].push_back(i);
+  }
+  return out;
+}
+
+bool is_forbidden(const Conflict& c, const std::vector<std::uint8_t>& labels) {
+  return c.forbidden >> (8 * labels[c.first] + labels[c.second]) & 1;
+}
+
+/// The clusters that must follow when one takes a parity: all that it then excludes, and so on.
+/// Equal parities never exclude each other, so this ends. `labels` is restored.
+std::vector<std::uint32_t> followers(const DepthProblem& problem,
+                                     const std::vector<std::vector<std::uint32_t>>& conflicts,
+                                     std::uint32_t cluster, Parity parity,
+                                     std::vector<std::uint8_t>& labels) {
+  std::vector<std::uint32_t> moved = {cluster};
+  std::vector<std::uint8_t> before = {labels[cluster]};
+  labels[cluster] = static_cast<std::uint8_t>(parity);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (const std::uint32_t index : conflicts[moved[i]]) {
+      const Conflict& c = problem.conflicts[index];
+      if (!is_forbidden(c, labels)) continue;
+      const std::uint32_t other = c.first == moved[i] ? c.second : c.first;
+      moved.push_back(other);
+      before.push_back(labels[other]);
+      labels[other] = static_cast<std::uint8_t>(parity);
+    }
+  for (std::size_t i = 0; i < moved.size(); ++i) labels[moved[i]] = before[i];
+  return moved;
+}
+
+/// Clusters that depend on each other through conflicts; single ones left out.
+std::vector<std::vector<std::uint32_t>> conflict_groups(
+    const DepthProblem& problem, const std::vector<std::vector<std::uint32_t>>& conflicts) {
+  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<std::uint32_t> is_seen(conflicts.size(), 0);
+  for (std::uint32_t start = 0; start < conflicts.size(); ++start) {
+    if (is_seen[start] || conflicts[start].empty()) continue;
+    std::vector<std::uint32_t> group(1, start);
+    is_seen[start] = 1;
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (const std::uint32_t index : conflicts[group[i]])
+        for (const std::uint32_t other :
+             {problem.conflicts[index].first, problem.conflicts[index].second})
+          if (!is_seen[other]) {
+            is_seen[other] = 1;
+            group.push_back(other);
+          }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::int64_t total_cost(const DepthProblem& problem, const std::vector<std::uint8_t>& labels) {
+  std::int64_t total = 0;
+  for (std::size_t k = 0; k < labels.size(); ++k) total += problem.costs[k][labels[k]];
+  return total;
+}
+
+}  // namespace
+
+Descent::Descent(const BlockSweep& sweep, const Context& context)
+    : sweep_(sweep), context_(context) {}
+
+void Descent::compute_bounds() {
+  // Whatever is chosen, a depth splits the input's nodes and what balance alone forces; each of
+  // their clusters costs at least its cheapest parity.
+  const int num_depths = sweep_.num_depths();
+  std::vector<std::int64_t> least(static_cast<std::size_t>(num_depths), 0);
+  BrickSet certain;
+  for (int d = num_depths - 1; d >= 0; --d) {
+    DepthProblem problem = sweep_.pose(sweep_.required(d, certain), d);
+    for (const LabelCosts& c : problem.costs) least[d] += *std::min_element(c.begin(), c.end());
+    certain = std::move(problem.required);
+    budget_ += kWorkFactor * (certain.num_bricks() + kWorkPerSet);
+  }
+  bound_above_.assign(static_cast<std::size_t>(num_depths) + 1, 0);
+  for (int d = 0; d < num_depths; ++d) bound_above_[d + 1] = bound_above_[d] + least[d];
+  budget_ += kMinWork;
+}
+
+std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t limit) {
+  if (depth == 0) return 0;
+  BrickSet required = sweep_.required(depth - 1, split);
+  spend(split);
+  const std::uint64_t hash = hash_of(required, depth - 1);
+  if (const auto known = cost_of_required_.find(hash); known != cost_of_required_.end())
+    return known->second;
+  spend(required);
+  const DepthProblem problem = sweep_.pose(std::move(required), depth - 1);
+  const std::int64_t here = problem.solution.cost;
+  if (here + bound_above(depth - 1) >= limit) return limit;
+  const BrickSet above = sweep_.split(problem, problem.solution.labels, depth - 1);
+  const std::int64_t total = here + cost_above(above, depth - 1, limit - here);
+  if (total < limit) cost_of_required_[hash] = total;
+  return total;
+}
+
+std::vector<Descent::Move> Descent::list_moves(const DepthProblem& problem,
+                                               const std::vector<std::uint8_t>& labels) const {
+  const auto conflicts = conflicts_by_cluster(problem);
+  const std::int64_t cost = total_cost(problem, labels);
+  auto scratch = labels;
+  std::vector<Move> moves;
+  const auto add = [&](std::vector<std::uint32_t> clusters, Parity p) {
+    Move move{std::move(clusters), p, cost};
+    for (const std::uint32_t k : move.clusters)
+      move.cost += problem.costs[k][p] - problem.costs[k][labels[k]];
+    moves.push_back(std::move(move));
+  };
+  for (Parity p = 0; p < kNumParities; ++p) {
+    for (std::uint32_t k = 0; k < problem.clusters.num_clusters; ++k)
+      if (p != labels[k]) add(followers(problem, conflicts, k, p, scratch), p);
+    for (const auto& group : conflict_groups(problem, conflicts)) add(group, p);
+    std::vector<std::uint32_t> all(problem.clusters.num_clusters);
+    std::iota(all.begin(), all.end(), 0u);
+    add(std::move(all), p);
+  }
+  std::stable_sort(moves.begin(), moves.end(),
+                   [](const Move& a, const Move& b) { return a.cost < b.cost; });
+  return moves;
+}
+
+bool Descent::try_moves(const DepthProblem& problem, int depth, std::vector<std::uint8_t>& labels,
+                        std::int64_t& best_total) {
+  // Half of what is left for this depth: the coarser ones are cheaper to explore.
+  const std::size_t stop = work_ + (budget_ - std::min(budget_, work_)) / 2;
+  const std::vector<std::uint8_t> start = labels;
+  std::vector<std::uint8_t> best = labels;
+  for (const Move& move : list_moves(problem, start)) {
+    if (move.cost + bound_above(depth) >= best_total || work_ >= stop) break;
+    context_.check_cancelled();
+    std::vector<std::uint8_t> tried = start;
+    for (const std::uint32_t k : move.clusters) tried[k] = static_cast<std::uint8_t>(move.parity);
+    spend(problem.required);
+    const std::int64_t total =
+        move.cost + cost_above(sweep_.split(problem, tried, depth), depth, best_total - move.cost);
+    if (total >= best_total) continue;
+    best_total = total;
+    best = std::move(tried);
+  }
+  labels = best;
+  return best != start;
+}
+
+std::vector<std::uint8_t> Descent::choose_labels(const DepthProblem& problem, int depth) {
+  std::vector<std::uint8_t> labels = problem.solution.labels;
+  std::int64_t total =
+      problem.solution.cost + cost_above(sweep_.split(problem, labels, depth), depth,
+                                         std::numeric_limits<std::int64_t>::max());
+  while (work_ < budget_ && try_moves(problem, depth, labels, total)) {
+  }
+  return labels;
+}
+
+NestedSets Descent::run(CompleteReport& report) {
+  compute_bounds();
+  const int num_depths = sweep_.num_depths();
+  NestedSets out(static_cast<std::size_t>(num_depths));
+  BrickSet none;
+  for (int d = num_depths - 1; d >= 0; --d) {
+    const DepthProblem problem =
+        sweep_.pose(sweep_.required(d, d + 1 < num_depths ? out[d + 1] : none), d);
+    count_problem(problem, report);
+    out[d] = sweep_.split(problem, choose_labels(problem, d), d);
+    context_.progress("complete", 1 - static_cast<double>(d) / num_depths);
+  }
+  return out;
+}
+
+}  // namespace hexwright
