@@ -62,8 +62,7 @@ NestedSets solve_depths(const NestedSets& input, const IlpOptions& options,
 }
 
 NestedSets solve_hierarchy(const Grid& grid, const NestedSets& input, const IlpOptions& options,
-                           const LatticeDomain& domain, const Context& context,
-                           IlpResult& result) {
+                           const LatticeDomain& domain, const Context& context, IlpResult& result) {
   const Grid start = complete(grid, {options.balance, Pairing::Blocks, true}, context).grid;
   NestedSets split;
   const IlpSolution solution =

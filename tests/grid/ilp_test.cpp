@@ -24,7 +24,8 @@ BrickSet all_nodes(const LatticeDomain& domain, int depth) {
   const int n = 1 << depth;
   for (const LatticeCoord& root : domain.shifted_roots())
     for (int i = 0; i < n * n * n; ++i) {
-      const LatticeCoord c = {root[0] * n + i % n, root[1] * n + i / n % n, root[2] * n + i / n / n};
+      const LatticeCoord c = {root[0] * n + i % n, root[1] * n + i / n % n,
+                              root[2] * n + i / n / n};
       bricks.push_back({brick_of_node(c), BrickBits{1} << bit_of_node(c)});
     }
   return BrickSet(std::move(bricks));
@@ -106,6 +107,7 @@ TEST(Ilp, TellsItsSolver) { EXPECT_EQ(ilp_solver_name().rfind("HiGHS ", 0), 0u);
 }  // namespace hexwright
 #else
 TEST(Ilp, LabellingEqualsTheFullProgramAtOneDepth) {
-  GTEST_SKIP() << "needs HiGHS: python3 -m pip install --target build/deps highsbox, then configure";
+  GTEST_SKIP()
+      << "needs HiGHS: python3 -m pip install --target build/deps highsbox, then configure";
 }
 #endif
