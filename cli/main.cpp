@@ -35,9 +35,11 @@ void add_commands(CLI::App& app, Program& program) {
   app.footer(
       "Exit codes: 0 valid, 1 done but the mesh fails the gate, 2 bad usage, 3 bad input, 4 out of "
       "resources.\n'hexwright COMMAND --help' shows the options of a command, with examples.");
+  add_mesh_command(app, program);
   add_grid_command(app, program);
   add_complete_command(app, program);
   add_dual_command(app, program);
+  add_fit_command(app, program);
   add_check_command(app, program);
   add_convert_command(app, program);
   add_picture_command(app, program);

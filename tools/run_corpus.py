@@ -93,9 +93,12 @@ def is_valid(result):
 
 
 def distance(verdict):
-    d = verdict.get("distance") or {}
-    return (max(d.get("max_to_mesh", 1), d.get("max_to_surface", 1)),
-            max(d.get("mean_to_mesh", 1), d.get("mean_to_surface", 1)))
+    d = verdict.get("distance") or {"max": 1, "mean": 1}
+    return d["max"], d["mean"]
+
+
+def compare(value, expected):
+    return f"{value}" if expected in (None, value) else f"{value} ({expected})"
 
 
 def row(result):
@@ -108,12 +111,9 @@ def row(result):
     quality, topology = verdict["quality"], verdict["topology"]
     features, surface = verdict.get("features") or {}, verdict.get("surface") or {}
     longest, mean = distance(verdict)
-    feature = f"{100 * features['length_share']:.1f}" if features.get("total_length") else "-"
-    same = lambda key: "" if topology.get(key) == surface.get(key) else f" ({surface.get(key)})"
-    components = f"{topology['num_boundary_components']}"
-    if surface and surface.get("num_components") != topology["num_boundary_components"]:
-        components += f" ({surface.get('num_components')})"
-    genus = f"{topology['genus']}{same('genus') if surface else ''}"
+    feature = f"{100 * features['length_share']:.1f}" if features.get("length") else "-"
+    components = compare(topology["boundary_components"], surface.get("components"))
+    genus = compare(topology["genus"], surface.get("genus"))
     return (head + f"| {report['hexes']} | {quality['min_scaled_jacobian']:.2f} | "
             f"{quality['avg_scaled_jacobian']:.2f} | {100 * longest:.2f} | {100 * mean:.3f} | {feature} | "
             f"{components} / {genus} | {report['best_round']}/{len(report['rounds']) - 1} " + tail)
@@ -133,7 +133,7 @@ def summary(results):
         f"{sum(map(is_valid, results))} of {total}",
         f"- exit code 0: {sum(r['exit'] == 0 for r in results)}; 1: {sum(r['exit'] == 1 for r in results)}; "
         f"other: {sum(r['exit'] not in (0, 1) for r in results)}",
-        f"- inverted hexes: {sum(q['num_inverted'] for q in quality)} in all",
+        f"- inverted hexes: {sum(q['inverted'] for q in quality)} in all",
         f"- least scaled Jacobian at least 0.2: {sum(q['min_scaled_jacobian'] >= 0.2 for q in quality)}; "
         f"mean of the averages {sum(q['avg_scaled_jacobian'] for q in quality) / max(1, len(done)):.3f}",
         f"- two-way distance at most 0.5%: {sum(d[0] <= 0.005 for d in distances)}; at most 1%: {sum(d[0] <= 0.01 for d in distances)}",

@@ -19,7 +19,7 @@ SOURCE = Path(sys.argv[2])
 
 CUBE = """v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1
 f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n"""
-COARSE = ["--max-level", "3", "--rounds", "0"]
+COARSE = ["--max-level", "3", "--rounds", "0", "--tolerance", "5%"]
 
 
 class CliTest(unittest.TestCase):
@@ -44,7 +44,7 @@ class CliTest(unittest.TestCase):
 class Usage(CliTest):
     def test_help_lists_the_commands_and_exits_with_0(self):
         text = self.run_binary("--help").stdout
-        for command in ("mesh", "grid", "complete", "dual", "fit", "improve", "check", "convert", "picture"):
+        for command in ("mesh", "grid", "complete", "dual", "fit", "check", "convert", "picture"):
             self.assertRegex(text, rf"\n  {command} ")
             page = self.run_binary(command, "--help").stdout
             self.assertIn(f"hexwright {command}", page)
@@ -107,8 +107,8 @@ class Mesh(CliTest):
         self.assertIn("hexes", done.stdout)
         self.assertEqual(self.files(), ["a.json", "a.png", "a.vtu", "cube.obj"])
         data = json.loads(report.read_text())
-        self.assertTrue(data["is_valid"])
-        self.assertEqual(data["verdict"]["quality"]["num_inverted"], 0)
+        self.assertTrue(data["valid"])
+        self.assertEqual(data["verdict"]["quality"]["inverted"], 0)
         self.assertGreater(data["peak_memory_bytes"], 1 << 20)
         self.assertEqual({s["name"] for s in data["stages"]},
                          {"prepare", "features", "surface tree", "sizing", "complete", "dual", "fit", "judge"})
@@ -116,9 +116,10 @@ class Mesh(CliTest):
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         self.run_binary("check", out, self.cube)
 
-    def test_quiet_says_nothing(self):
+    def test_quiet_leaves_only_warnings(self):
         done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--quiet", *COARSE)
-        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        self.assertEqual(done.stdout, "")
+        self.assertNotIn("error", done.stderr)
 
     def test_progress_stays_off_a_pipe(self):
         done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE)
@@ -129,7 +130,8 @@ class Mesh(CliTest):
             outputs = []
             for threads in (1, 2):
                 out = self.path / f"t{threads}.vtu"
-                self.run_binary("mesh", self.cube, "-o", out, "--threads", threads, "--max-level", "3", *extra)
+                self.run_binary("mesh", self.cube, "-o", out, "--threads", threads, "--max-level", "3",
+                                "--tolerance", "5%", *extra)
                 outputs.append(out.read_bytes())
             self.assertEqual(*outputs)
 
@@ -194,13 +196,6 @@ class Stages(CliTest):
         self.run_binary("convert", self.path / "g.htg", self.path / "g2.cells")
         leaves = lambda n: sorted(l for l in (self.path / n).read_text().splitlines() if not l.startswith("#"))
         self.assertEqual(leaves("g.cells"), leaves("g2.cells"))
-
-    def test_improve_never_lowers_the_minimum(self):
-        hexes = self.path / "h.mesh"
-        self.run_binary("mesh", self.cube, "-o", hexes, *COARSE)
-        text = self.run_binary("improve", hexes, "-o", self.path / "i.mesh").stdout
-        before, after = map(float, re.search(r"min (-?[\d.]+) -> (-?[\d.]+)", text).groups())
-        self.assertGreaterEqual(after, before)
 
 
 class Check(CliTest):
