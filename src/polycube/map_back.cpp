@@ -1,6 +1,7 @@
 #include "polycube/map_back.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -106,10 +107,15 @@ IdVector<VertId, int> boundary_directions(const HexMesh& mesh) {
   return directions;
 }
 
-Vec3 on_crease(const TetMesh& object, const Lattice& lattice, const std::vector<Crease>& creases,
-               int directions, const Vec3& p) {
+// The crease between two directions nearest to p, and the place on it.
+struct CreasePoint {
+  std::array<VertId, 2> verts;
+  double t = 0;
+};
+CreasePoint closest_crease(const Lattice& lattice, const std::vector<Crease>& creases,
+                           int directions, const Vec3& p) {
   double best = std::numeric_limits<double>::infinity();
-  Vec3 image;
+  CreasePoint nearest;
   for (const Crease& crease : creases) {
     if (((1 << crease.directions[0]) | (1 << crease.directions[1])) != directions) continue;
     const Vec3 &a = lattice.tets.positions[crease.verts[0]],
@@ -119,9 +125,9 @@ Vec3 on_crease(const TetMesh& object, const Lattice& lattice, const std::vector<
     const double d = norm_sq(a + (b - a) * t - p);
     if (d >= best) continue;
     best = d;
-    image = object.positions[crease.verts[0]] * (1 - t) + object.positions[crease.verts[1]] * t;
+    nearest = {crease.verts, t};
   }
-  return image;
+  return nearest;
 }
 
 // Polycube vertices where charts of three or more directions meet, with those directions.
@@ -137,21 +143,65 @@ std::map<VertId, int> find_corner_directions(const std::vector<Crease>& creases)
   return directions;
 }
 
-Vec3 at_corner(const TetMesh& object, const Lattice& lattice,
-               const std::map<VertId, int>& corner_to_directions, int directions, const Vec3& p) {
+VertId closest_corner(const Lattice& lattice, const std::map<VertId, int>& corner_to_directions,
+                      int directions, const Vec3& p) {
   double best = std::numeric_limits<double>::infinity();
   VertId nearest;
   for (const auto& [v, has] : corner_to_directions) {
-    const double mismatch =
-        has == directions ? 0 : 1;  // lattice units: another corner is a last resort
+    const double mismatch = has == directions ? 0 : 1;  // another kind of corner is a last resort
     const double d = norm_sq(lattice.tets.positions[v] - p) + mismatch;
     if (d < best) {
       best = d;
       nearest = v;
     }
   }
-  return nearest.is_valid() ? object.positions[nearest] : p;
+  return nearest;
 }
+
+// Everything a single vertex needs to be carried over.
+class Mapper {
+ public:
+  Mapper(const TetMesh& object, const Lattice& lattice, const TetLocator& locator)
+      : object_(object),
+        lattice_(lattice),
+        locator_(locator),
+        boundary_(lattice),
+        creases_(find_creases(lattice, boundary_)),
+        corners_(find_corner_directions(creases_)) {}
+
+  Vec3 map(const Vec3& p, int directions, BoundaryPlace& place, char& is_bridged) const {
+    const auto bits = static_cast<unsigned>(directions);
+    switch (std::popcount(bits)) {
+      case 0: {
+        const TetPoint at = locator_.locate(p);
+        is_bridged = at.is_bridged;
+        return interpolate(object_, at);
+      }
+      case 1: {
+        const auto hit = boundary_.closest(p, std::countr_zero(bits));
+        place.facet = hit.facet;
+        return interpolate_facet(object_, lattice_, hit.facet, hit.point);
+      }
+      case 2: {
+        const CreasePoint at = closest_crease(lattice_, creases_, directions, p);
+        if (!at.verts[0].is_valid()) return map(p, 1 << std::countr_zero(bits), place, is_bridged);
+        place.crease = at.verts;
+        return object_.positions[at.verts[0]] * (1 - at.t) + object_.positions[at.verts[1]] * at.t;
+      }
+      default:
+        place.corner = closest_corner(lattice_, corners_, directions, p);
+        return object_.positions[place.corner];
+    }
+  }
+
+ private:
+  const TetMesh& object_;
+  const Lattice& lattice_;
+  const TetLocator& locator_;
+  BoundaryLocator boundary_;
+  std::vector<Crease> creases_;
+  std::map<VertId, int> corners_;
+};
 
 }  // namespace
 
@@ -166,34 +216,20 @@ ObjectFeatures object_features(const TetMesh& object, const Lattice& lattice) {
 
 MappedMesh map_back(const HexMesh& hexes, const TetMesh& object, const Lattice& lattice,
                     const TetLocator& locator) {
-  const BoundaryLocator boundary(lattice);
-  const auto creases = find_creases(lattice, boundary);
-  const auto corners = find_corner_directions(creases);
+  const Mapper mapper(object, lattice, locator);
   const auto directions = boundary_directions(hexes);
-  MappedMesh result{hexes, 0};
+  MappedMesh result{hexes, IdVector<VertId, BoundaryPlace>(hexes.num_verts()), 0};
   std::vector<char> is_bridged(hexes.num_verts(), 0);
   parallel_for(
       hexes.num_verts(),
       [&](std::size_t i) {
         const VertId v(i);
-        const Vec3& p = hexes.positions[v];
-        const int num_directions = __builtin_popcount(static_cast<unsigned>(directions[v]));
-        Vec3& image = result.mesh.positions[v];
-        if (num_directions == 0) {
-          const TetPoint at = locator.locate(p);
-          is_bridged[i] = at.is_bridged;
-          image = interpolate(object, at);
-        } else if (num_directions == 1) {
-          const auto hit = boundary.closest(p, __builtin_ctz(static_cast<unsigned>(directions[v])));
-          image = interpolate_facet(object, lattice, hit.facet, hit.point);
-        } else if (num_directions == 2) {
-          image = on_crease(object, lattice, creases, directions[v], p);
-        } else {
-          image = at_corner(object, lattice, corners, directions[v], p);
-        }
+        result.mesh.positions[v] =
+            mapper.map(hexes.positions[v], directions[v], result.place[v], is_bridged[i]);
       },
       64);
-  for (char bridged : is_bridged) result.num_bridged += bridged != 0;
+  result.num_bridged =
+      static_cast<std::size_t>(std::count(is_bridged.begin(), is_bridged.end(), 1));
   return result;
 }
 

@@ -16,8 +16,17 @@ struct ObjectFeatures {
 };
 ObjectFeatures object_features(const TetMesh& object, const Lattice& lattice);
 
+/// Which part of the object's boundary a mesh vertex stands for: the one with a valid id, or none
+/// (inside).
+struct BoundaryPlace {
+  TriId facet;                   ///< inside a face of the polycube
+  std::array<VertId, 2> crease;  ///< on the edge of the polycube that holds this edge of the object
+  VertId corner;                 ///< a corner of the polycube, as a vertex of the object
+};
+
 struct MappedMesh {
   HexMesh mesh;
+  IdVector<VertId, BoundaryPlace> place;
   std::size_t num_bridged = 0;
 };
 
