@@ -2,8 +2,11 @@
 // complete, dualise, map back, optimise on the object's surface.
 #include "hexwright/polycube/polycube.h"
 
+#include "hexwright/quality/hex_quality.h"
+
 #include "polycube/lattice.h"
 #include "polycube/map_back.h"
+#include "polycube/relax.h"
 #include "polycube/sample_map.h"
 #include "polycube/tet_locator.h"
 
@@ -88,8 +91,12 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
 
   auto mapped = polycube::map_back(dual.mesh, object, lattice, locator);
   report.num_bridged = mapped.num_bridged;
+  report.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
+
+  const auto features = polycube::object_features(object, lattice);
+  polycube::relax(mapped, features, lattice, context);
   result.mesh = std::move(mapped.mesh);
-  result.surface = polycube::object_features(object, lattice).surface;
+  result.surface = features.surface;
   return result;
 }
 

@@ -1,0 +1,154 @@
+// Based on: the fit's kernel and passes (docs/algorithms/fit.md); Garanzha et al., "Foldover-free
+// maps in 50 lines of code", ACM TOG 40(4), 2021, for the regularised determinants of the
+// untangling.
+#include "polycube/relax.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "hexwright/quality/hex_quality.h"
+
+#include "fit/finish.h"
+#include "fit/fit_state.h"
+#include "fit/sweep.h"
+#include "fit/targets.h"
+
+namespace hexwright::polycube {
+namespace {
+
+using fitting::FitState;
+using fitting::FitTarget;
+using fitting::VertKind;
+
+constexpr double kClearlyPositive = 0.02;  // scaled Jacobian above which a hex is left alone
+constexpr double kAttachment = 300;        // weight of the boundary while untangling
+constexpr int kMaxUntangleRounds = 40;
+
+// The polycube's edges on the object as curves, cut only where they meet.
+FeatureGraph chart_curves(const ObjectFeatures& object) {
+  FeatureOptions options;
+  options.crease_angle = std::numbers::pi;
+  options.turn_angle = std::numbers::pi;
+  options.extra_edges = object.chart_edges;
+  return extract_features(object.surface, options);
+}
+
+std::map<std::array<VertId, 2>, CurveId> curves_by_edge(const FeatureGraph& graph) {
+  std::map<std::array<VertId, 2>, CurveId> result;
+  for (CurveId c : graph.curves.ids()) {
+    const auto& verts = graph.curves[c].verts;
+    for (std::size_t i = 1; i < verts.size(); ++i)
+      result[{std::min(verts[i - 1], verts[i]), std::max(verts[i - 1], verts[i])}] = c;
+  }
+  return result;
+}
+
+// Tells the state which face, edge or corner each boundary vertex belongs to.
+void constrain(FitState& state, const IdVector<VertId, BoundaryPlace>& place,
+               const ObjectFeatures& object, const FeatureGraph& graph,
+               const IdVector<TriId, int>& facet_to_chart) {
+  const auto edge_to_curve = curves_by_edge(graph);
+  for (VertId v : place.ids()) {
+    if (!state.is_boundary(v)) continue;
+    const BoundaryPlace& at = place[v];
+    if (at.corner.is_valid()) {
+      state.kind[v] = VertKind::Corner;
+      state.feature_point[v] = at.corner;
+    } else if (at.crease[0].is_valid()) {
+      const auto found = edge_to_curve.find(
+          {std::min(at.crease[0], at.crease[1]), std::max(at.crease[0], at.crease[1])});
+      if (found == edge_to_curve.end()) continue;
+      state.kind[v] = VertKind::Curve;
+      state.curve[v] = found->second;
+      state.arc[v] =
+          closest_on_curve(object.surface, graph.curves[found->second], state.mesh.positions[v])
+              .arc;
+    } else if (at.facet.is_valid()) {
+      state.patch[v] = PatchId(facet_to_chart[at.facet]);
+    }
+  }
+}
+
+std::vector<char> verts_of_bad_hexes(const FitState& state) {
+  std::vector<char> is_member;
+  const auto quality = compute_scaled_jacobians(state.mesh);
+  for (HexId h : quality.ids()) {
+    if (quality[h] > kClearlyPositive) continue;
+    is_member.resize(state.num_verts(), 0);
+    for (VertId v : state.mesh.hexes[h]) is_member[v.index()] = 1;
+  }
+  return is_member;
+}
+
+// Regularised sweeps around bad hexes, with less and less regularisation in ever wider
+// surroundings.
+void untangle(FitState& state, const FitTarget& target, const Context& context) {
+  double regularisation = 0.3;
+  for (int round = 0; round < kMaxUntangleRounds; ++round) {
+    context.check_cancelled();
+    auto is_member = verts_of_bad_hexes(state);
+    if (is_member.empty()) return;
+    fitting::grow_vert_set(state, is_member, 2 + round / 6);
+    const fitting::LocalSweep local(state, is_member);
+    fitting::update_targets(state, target, 0, is_member);
+    for (int k = 0; k < 3; ++k) local.run(state, {{0, 1, regularisation}, kAttachment, 0});
+    regularisation = std::max(0.7 * regularisation, 0.01);
+  }
+}
+
+PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, PatchId>& patch) {
+  for (VertId v : quad)
+    if (patch[v].is_valid()) return patch[v];
+  return {};
+}
+
+void label(const FitState& state, const HexMesh& mapped, const SurfaceTree& tree,
+           BoundaryLabels& labels) {
+  for (const auto& quad : state.quads) {
+    PatchId patch = patch_of_quad(quad, state.patch);
+    if (!patch.is_valid()) {
+      Vec3 center;
+      for (VertId v : quad) center += mapped.positions[v] * 0.25;
+      const auto nearest = tree.closest(center);
+      if (nearest) patch = tree.patch(nearest->tri);
+    }
+    labels.quads.push_back({quad, patch});
+    for (std::size_t k = 0; k < 4; ++k) {
+      const VertId a = quad[k], b = quad[(k + 1) % 4];
+      if (!(a < b)) continue;  // the other quad of the edge lists it
+      const bool a_is_curve = state.kind[a] == VertKind::Curve,
+                 b_is_curve = state.kind[b] == VertKind::Curve;
+      const bool is_on_curve = (a_is_curve && (b_is_curve ? state.curve[a] == state.curve[b]
+                                                          : state.kind[b] == VertKind::Corner)) ||
+                               (b_is_curve && state.kind[a] == VertKind::Corner);
+      if (is_on_curve) labels.edges.push_back({{a, b}, state.curve[a_is_curve ? a : b]});
+    }
+  }
+  for (VertId v : state.kind.ids())
+    if (state.kind[v] == VertKind::Corner) labels.corners.push_back(v);
+}
+
+}  // namespace
+
+void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
+           const Context& context) {
+  const FeatureGraph graph = chart_curves(object);
+  SurfaceTree tree(object.surface);
+  IdVector<TriId, PatchId> facet_to_patch(lattice.facets.size());
+  for (TriId f : lattice.facets.ids()) facet_to_patch[f] = PatchId(lattice.facet_to_chart[f]);
+  tree.set_patches(facet_to_patch);
+  const FitTarget target{tree, &graph};
+
+  FitState state(std::move(mapped.mesh));
+  constrain(state, mapped.place, object, graph, lattice.facet_to_chart);
+  context.progress("untangle", 0);
+  untangle(state, target, context);
+  context.progress("improve", 0);
+  fitting::polish_worst(state, target, {}, context);
+  fitting::snap_to_targets(state, target, 0.1);
+  mapped.mesh = std::move(state.mesh);
+  label(state, mapped.mesh, tree, mapped.mesh.labels);
+}
+
+}  // namespace hexwright::polycube
