@@ -32,5 +32,6 @@ void add_improve_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_picture_command(CLI::App& app, Program& program);
+void add_polycube_command(CLI::App& app, Program& program);
 
 }  // namespace hexwright::cli

@@ -43,6 +43,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_check_command(app, program);
   add_convert_command(app, program);
   add_picture_command(app, program);
+  add_polycube_command(app, program);
 }
 
 int run(int argc, char** argv) {

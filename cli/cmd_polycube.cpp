@@ -1,0 +1,116 @@
+// hexwright polycube: samples a polycube map adaptively.
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "hexwright/io/atomic_file.h"
+#include "hexwright/io/grid_io.h"
+#include "hexwright/io/mesh_io.h"
+#include "hexwright/polycube/polycube.h"
+#include "hexwright/quality/judge.h"
+#include "hexwright/quality/verdict_json.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+#include "picture_file.h"
+#include "verdict_text.h"
+
+namespace hexwright::cli {
+namespace {
+
+struct PolycubeCommand {
+  std::string object, polycube, output, report, picture, grid;
+  PolycubeOptions options;
+};
+
+std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
+  nlohmann::ordered_json json;
+  json["polycube"] = {{"tets", r.num_tets},
+                      {"nonpositive_tets_object", r.num_nonpositive_object},
+                      {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
+                      {"charts", r.num_charts},
+                      {"unaligned_facets", r.num_unaligned_facets},
+                      {"max_plane_deviation", r.max_plane_deviation},
+                      {"spacing", r.spacing},
+                      {"roots", r.num_roots},
+                      {"sampled_cells", r.num_sampled_cells},
+                      {"cells", r.num_cells},
+                      {"bridged_vertices", r.num_bridged},
+                      {"inverted_after_mapping", r.num_inverted_mapped},
+                      {"warnings", r.warnings}};
+  json["verdict"] = nlohmann::ordered_json::parse(verdict_to_json(verdict));
+  return json.dump(2) + "\n";
+}
+
+void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result,
+                   const Verdict& verdict, Console& console) {
+  const PolycubeReport& r = result.report;
+  console.print(fmt::format("{}: {} hexes from {} cells on {} lattice cubes (spacing {:.4g}, {} "
+                            "charts)",
+                            cmd.output, result.mesh.num_hexes(), r.num_cells, r.num_roots,
+                            r.spacing, r.num_charts));
+  console.print(fmt::format(
+      "  map: {} tets, not positive: {} in the object, {} in the polycube; {} vertices bridged, {} "
+      "hexes inverted before the optimisation",
+      r.num_tets, r.num_nonpositive_object, r.num_nonpositive_polycube, r.num_bridged,
+      r.num_inverted_mapped));
+  print_verdict(verdict, console);
+}
+
+void run(const PolycubeCommand& cmd, Program& program) {
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid});
+  require_extension(cmd.output, hex_mesh_extensions());
+  const Context context = program.console.start();
+  const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
+  const PolycubeResult result = naming_file(
+      cmd.polycube, [&] { return mesh_polycube(object, polycube, cmd.options, context); });
+  JudgeOptions judge_options;
+  judge_options.features.crease_angle = 4;  // the map's own curves count, not the surface's creases
+  const Verdict verdict = judge(result.mesh, SurfaceTree(result.surface), judge_options, context);
+  program.console.clear_progress();
+
+  write_mesh_with_quality(cmd.output, result.mesh);
+  if (!cmd.picture.empty())
+    write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
+  print_summary(cmd, result, verdict, program.console);
+  for (const std::string& w : result.report.warnings) program.console.warn(cmd.polycube + ": " + w);
+  for (const std::string& f : verdict.failures) program.console.fail(cmd.output + ": " + f);
+  program.exit_code = verdict.is_valid() ? Valid : FailsGate;
+}
+
+}  // namespace
+
+void add_polycube_command(CLI::App& app, Program& program) {
+  auto cmd = std::make_shared<PolycubeCommand>();
+  CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
+  sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
+  sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option_function<std::string>(
+         "--max-stretch",
+         [cmd](const std::string& text) { cmd->options.max_stretch = parse_share(text); },
+         "A cell is split while two object points in it are farther apart than this share of the "
+         "diagonal")
+      ->default_str("2%");
+  sub->add_option("--spacing", cmd->options.spacing,
+                  "Edge of a lattice cube in polycube units; 0 derives it")
+      ->capture_default_str();
+  sub->add_option("--min-level", cmd->options.min_level)->check(CLI::Range(0, 12));
+  sub->add_option("--max-level", cmd->options.max_level)
+      ->check(CLI::Range(0, 12))
+      ->capture_default_str();
+  sub->add_option("--max-cells", cmd->options.max_cells)->capture_default_str();
+  add_complete_options(*sub, cmd->options.complete);
+  sub->add_option("--report", cmd->report, "Write a report as JSON");
+  sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  sub->add_option("--save-grid", cmd->grid, "Write the grid on the polycube's lattice");
+  add_console_options(*sub, program);
+  sub->footer("Example:\n  hexwright polycube object.mesh cube.mesh -o object.vtu --max-level 4");
+  sub->callback([cmd, &program] { run(*cmd, program); });
+}
+
+}  // namespace hexwright::cli
