@@ -35,8 +35,8 @@ std::vector<Offset> make_spiral() {
 // middle stands for the optical axis, near enough for shading.
 Vec3 view_position(const Raster& raster, int x, int y, double focal_length) {
   const double distance = 1 / static_cast<double>(raster.nearness[raster.at(x, y)]);
-  return {(x - raster.width / 2) * distance / focal_length,
-          -(y - raster.height / 2) * distance / focal_length, -distance};
+  return {(x - 0.5 * raster.width) * distance / focal_length,
+          -(y - 0.5 * raster.height) * distance / focal_length, -distance};
 }
 
 double occlusion_at(const Raster& raster, int x, int y, double focal_length,

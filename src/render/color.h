@@ -9,13 +9,13 @@ struct Color {
   float r = 0, g = 0, b = 0;
 
   friend Color operator*(float s, const Color& c) { return {s * c.r, s * c.g, s * c.b}; }
-  friend Color operator+(const Color& a, const Color& b) {
-    return {a.r + b.r, a.g + b.g, a.b + b.b};
+  friend Color operator+(const Color& c, const Color& d) {
+    return {c.r + d.r, c.g + d.g, c.b + d.b};
   }
 };
 
-inline Color mix(const Color& a, const Color& b, float share_of_b) {
-  return (1 - share_of_b) * a + share_of_b * b;
+inline Color mix(const Color& first, const Color& second, float share_of_second) {
+  return (1 - share_of_second) * first + share_of_second * second;
 }
 
 /// Red at 0 and below, through yellow, to blue at 1 and above; grey when the value is not a number.
