@@ -55,7 +55,12 @@ Grid read_grid(const std::filesystem::path& path) {
 void write_grid(const std::filesystem::path& path, const Grid& grid) {
   if (const auto issue = grid.find_problem())
     throw Error(ErrorCode::BadArgument, "the grid cannot be written: " + issue->message);
+  constexpr std::size_t kMostCells = 200'000'000;  // 32-bit counts of the formats with hexes
   const std::string extension = io::lower_extension(path);
+  if ((extension == ".mesh" || extension == ".vtu") && grid.num_cells() > kMostCells)
+    throw Error(ErrorCode::BadArgument,
+                "the grid has more than 2e8 cells, too many for this format; use .cells or .htg",
+                path.string());
   if (extension == ".cells")
     write_file_atomically(path, io::cells_text(grid));
   else if (extension == ".htg")

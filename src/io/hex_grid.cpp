@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/parallel.h"
+
 #include "io/file_bytes.h"
 #include "io/grid_file.h"
 
@@ -196,23 +198,35 @@ GridFile hexes_to_grid(const VolumeFile& file, const std::string& name) {
 }
 
 HexMesh grid_to_hexes(const Grid& grid) {
-  std::vector<LatticeCoord> nodes;
-  nodes.reserve(8 * grid.num_cells());
-  for (CellId c : grid.cells.ids())
-    for (int lv = 0; lv < 8; ++lv) nodes.push_back(corner_of(grid, c, lv));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  // All corners of all cells, sorted by place: equal ones become one vertex.
+  struct Corner {
+    std::uint64_t zy;
+    std::uint32_t x;
+    std::uint32_t index;  // 8 * cell + lv
+    bool is_at(const Corner& other) const { return zy == other.zy && x == other.x; }
+  };
+  constexpr std::uint32_t kOffset = 1u << 30;  // corners lie within +-2^30: none is negative then
+  const auto shifted = [](std::int32_t x) { return static_cast<std::uint32_t>(x) + kOffset; };
+  std::vector<Corner> corners(8 * grid.num_cells());
+  parallel_for(corners.size(), [&](std::size_t i) {
+    const LatticeCoord p = corner_of(grid, CellId(i / 8), static_cast<int>(i % 8));
+    corners[i] = {std::uint64_t{shifted(p[2])} << 32 | shifted(p[1]), shifted(p[0]),
+                  static_cast<std::uint32_t>(i)};
+  });
+  parallel_stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.zy != b.zy ? a.zy < b.zy : a.x < b.x;
+  });
 
   HexMesh mesh;
-  for (const LatticeCoord& node : nodes) mesh.positions.push_back(lattice_to_world(grid, node));
-  for (CellId c : grid.cells.ids()) {
-    std::array<VertId, 8> hex;
-    for (int lv = 0; lv < 8; ++lv)
-      hex[static_cast<std::size_t>(lv)] = VertId(
-          std::lower_bound(nodes.begin(), nodes.end(), corner_of(grid, c, lv)) - nodes.begin());
-    mesh.hexes.push_back(hex);
-    mesh.region.push_back(grid.cells[c].level);
+  mesh.hexes.resize(grid.num_cells());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const CellId cell(corners[i].index / 8);
+    const int lv = static_cast<int>(corners[i].index % 8);
+    if (i == 0 || !corners[i].is_at(corners[i - 1]))
+      mesh.positions.push_back(lattice_to_world(grid, corner_of(grid, cell, lv)));
+    mesh.hexes[HexId(cell.value())][static_cast<std::size_t>(lv)] = VertId(mesh.num_verts() - 1);
   }
+  for (const GridCell& cell : grid.cells) mesh.region.push_back(cell.level);
   return mesh;
 }
 
