@@ -1,0 +1,64 @@
+// Files that appear whole or not at all.
+#include "hexwright/io/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include "hexwright/base/error.h"
+
+#include "io/temp_folder.h"
+
+namespace hexwright {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TempFolder;
+
+TEST(AtomicFile, ReplacesTheWholeContentAndLeavesNothingElse) {
+  const TempFolder folder;
+  write_file_atomically(folder / "a.txt", std::string(100000, 'x'));
+  write_file_atomically(folder / "a.txt", std::string("a\0b", 3));
+  EXPECT_EQ(test::slurp(folder / "a.txt"), std::string("a\0b", 3));
+  EXPECT_EQ(folder.num_files(), 1u);
+}
+
+TEST(AtomicFile, FailuresLeaveTheOldFileAndNothingElse) {
+  const TempFolder folder;
+  fs::create_directory(folder / "sub");
+  for (const fs::path& path : {folder / "missing/a.txt", folder / "sub"}) {
+    try {
+      write_file_atomically(path, "x");
+      ADD_FAILURE() << path << " was written";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::CannotOpen);
+      EXPECT_EQ(error.where(), path.string());
+    }
+  }
+  EXPECT_EQ(folder.num_files(), 1u);
+}
+
+TEST(AtomicFile, FullDevicesAreReportedAndDevicesAreNotReplaced) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  EXPECT_THROW(write_file_atomically("/dev/full", "x"), Error);
+  write_file_atomically("/dev/null", "x");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, SymbolicLinksKeepPointingAtTheFile) {
+  const TempFolder folder;
+  folder.write("real.txt", "old");
+  fs::create_symlink("real.txt", folder / "link.txt");
+  write_file_atomically(folder / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(test::slurp(folder / "real.txt"), "new");
+}
+
+TEST(AtomicFile, LeftoversOfAKilledRunDoNotDisturb) {
+  const TempFolder folder;
+  folder.write(".a.txt.0.part", "half");
+  write_file_atomically(folder / "a.txt", "whole");
+  EXPECT_EQ(test::slurp(folder / "a.txt"), "whole");
+  EXPECT_EQ(test::slurp(folder / ".a.txt.0.part"), "half");
+}
+
+}  // namespace
+}  // namespace hexwright
