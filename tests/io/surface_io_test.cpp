@@ -69,7 +69,15 @@ TEST(ReadSurface, BadFilesAreRefusedWithPlaceAndReason) {
                {"word_coordinates.obj", "word_coordinates.obj:1", "expected a number"},
                {"zero_index.obj", "zero_index.obj:5", "start at 1"},
                {"zero_elements.off", "zero_elements.off", "no face"},
-               {"ply_bad_header.ply", "ply_bad_header.ply:6", "header"}};
+               {"ply_bad_header.ply", "ply_bad_header.ply:6", "header"},
+               {"ply_truncated_binary.ply", "face 146", "truncated"},
+               {"stl_ascii_truncated.stl", "stl_ascii_truncated.stl:304", "truncated"},
+               {"stl_header_short.stl", "stl_header_short.stl", "84"},
+               {"stl_truncated.stl", "facet 158", "truncated"},
+               {"truncated.off", "truncated.off:322", "face 160 of 320"},
+               {"truncated_vertices.off", "truncated_vertices.off:74", "vertex 72 of 160"},
+               {"nan_coordinates.obj", "nan_coordinates.obj:5", "not finite"},
+               {"inf_coordinates.obj", "inf_coordinates.obj:5", "not finite"}};
   for (const auto& c : cases) {
     try {
       read_surface(bundled("bad") / c.file);
@@ -80,6 +88,18 @@ TEST(ReadSurface, BadFilesAreRefusedWithPlaceAndReason) {
       EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(ReadSurface, WrongCountsAndNamesGiveWarningsNotErrors) {
+  for (const char* name : {"off_named.obj", "stl_count_max.stl", "stl_count_too_big.stl",
+                           "stl_count_too_small.stl", "stl_count_zero.stl"}) {
+    const SurfaceFile file = read_surface(bundled("bad") / name);
+    EXPECT_EQ(file.mesh.num_tris(), 320u) << name;
+    EXPECT_EQ(file.warnings.size(), 1u) << name;
+  }
+  const SurfaceFile file = read_surface(bundled("bad/stl_solid_header_binary.stl"));
+  EXPECT_EQ(file.format, "STL (binary)");
+  EXPECT_TRUE(file.warnings.empty());
 }
 
 TEST(ReadSurface, AbsentFilesAndFoldersAreRefused) {
