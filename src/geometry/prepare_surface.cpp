@@ -105,13 +105,13 @@ bool encloses_something(const TriMesh& mesh) {
         return true;
   }
   constexpr int kLattice = 12;
-  for (int i = 0; i < kLattice * kLattice * kLattice; ++i) {
-    const Vec3 f{(i % kLattice + 0.5) / kLattice, (i / kLattice % kLattice + 0.5) / kLattice,
-                 (i / kLattice / kLattice + 0.5) / kLattice};
-    const Vec3 e = tree.box().extent();
-    if (tree.winding_number(tree.box().lo + Vec3{f.x * e.x, f.y * e.y, f.z * e.z}) > kClearlyInside)
-      return true;
-  }
+  const Vec3 step = tree.box().extent() / kLattice;
+  for (int x = 0; x < kLattice; ++x)
+    for (int y = 0; y < kLattice; ++y)
+      for (int z = 0; z < kLattice; ++z) {
+        const Vec3 offset{(x + 0.5) * step.x, (y + 0.5) * step.y, (z + 0.5) * step.z};
+        if (tree.winding_number(tree.box().lo + offset) > kClearlyInside) return true;
+      }
   return false;
 }
 
