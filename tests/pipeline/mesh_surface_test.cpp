@@ -1,0 +1,219 @@
+// The whole pipeline on small shapes.
+#include "hexwright/pipeline/mesh_surface.h"
+
+#include <atomic>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+TriMesh transformed(TriMesh surface, double scale, const Vec3& shift) {
+  for (Vec3& p : surface.positions) p = p * scale + shift;
+  return surface;
+}
+
+TriMesh merged(TriMesh a, const TriMesh& b) {
+  const auto base = static_cast<std::int32_t>(a.num_verts());
+  for (const Vec3& p : b.positions) a.positions.push_back(p);
+  for (const auto& t : b.tris)
+    a.tris.push_back(
+        {VertId(t[0].value() + base), VertId(t[1].value() + base), VertId(t[2].value() + base)});
+  return a;
+}
+
+MeshOptions coarse() {
+  MeshOptions options;
+  options.sizing.tolerance = 0.02;
+  options.sizing.max_level = 5;
+  options.max_rounds = 2;
+  return options;
+}
+
+void expect_valid(const MeshResult& r) {
+  for (const std::string& f : r.failures) ADD_FAILURE() << f;
+  EXPECT_GT(r.mesh.num_hexes(), 0u);
+  EXPECT_TRUE(r.verdict.topology.is_valid());
+  EXPECT_EQ(r.verdict.quality.num_inverted, 0u);
+  EXPECT_FALSE(r.mesh.find_problem());
+  EXPECT_FALSE(r.grid.find_problem());
+}
+
+TEST(MeshSurface, ACubeIsMetExactlyWithItsEdgesAndCorners) {
+  const MeshResult r = mesh_surface(test::unit_cube_surface(), coarse(), {});
+  expect_valid(r);
+  ASSERT_TRUE(r.verdict.distance && r.verdict.features);
+  EXPECT_LT(r.verdict.distance->max_two_way(), 1e-6);
+  EXPECT_NEAR(r.verdict.features->length_share, 1, 1e-9);
+  EXPECT_EQ(r.verdict.features->num_corners_recovered, 8u);
+  EXPECT_NEAR(r.verdict.quality.total_volume, 1, 1e-6);
+  EXPECT_NEAR(r.verdict.features->total_length, 12, 1e-9);
+  const Box3 box = bounding_box(r.mesh);
+  EXPECT_NEAR(distance(box.lo, {0, 0, 0}), 0, 1e-6);
+  EXPECT_NEAR(distance(box.hi, {1, 1, 1}), 0, 1e-6);
+}
+
+TEST(MeshSurface, ASphereIsMetWithinTheTolerance) {
+  for (double tolerance : {0.02, 0.01}) {
+    MeshOptions options = coarse();
+    options.sizing.tolerance = tolerance;
+    const MeshResult r = mesh_surface(test::unit_sphere_surface(4), options, {});
+    expect_valid(r);
+    EXPECT_LE(r.verdict.distance->max_two_way(), tolerance);
+    EXPECT_EQ(r.verdict.topology.genus(), 0);
+    EXPECT_EQ(r.rounds.size(), static_cast<std::size_t>(r.num_rounds) + 1);
+  }
+}
+
+TEST(MeshSurface, ResultsDoNotDependOnThreads) {
+  const TriMesh surface = test::unit_sphere_surface(3);
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.01;
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return mesh_surface(surface, options, {});
+  };
+  const MeshResult one = run(1), two = run(2);
+  EXPECT_EQ(one.mesh.positions, two.mesh.positions);
+  EXPECT_EQ(one.mesh.hexes, two.mesh.hexes);
+  EXPECT_EQ(one.mesh.labels, two.mesh.labels);
+  EXPECT_EQ(one.grid.cells, two.grid.cells);
+}
+
+TEST(MeshSurface, TinyHugeAndFarModelsComeOutAlike) {
+  const TriMesh cube = test::unit_cube_surface();
+  const std::size_t expected = mesh_surface(cube, coarse(), {}).mesh.num_hexes();
+  for (double scale : {0x1p-60, 0x1p60, 1e-9, 1e9}) {
+    const MeshResult r = mesh_surface(transformed(cube, scale, {}), coarse(), {});
+    expect_valid(r);
+    EXPECT_EQ(r.mesh.num_hexes(), expected) << "scale " << scale;
+    EXPECT_NEAR(bounding_box(r.mesh).extent().x / scale, 1, 1e-6);
+    EXPECT_NEAR(r.verdict.quality.total_volume / (scale * scale * scale), 1, 1e-6);
+  }
+  const Vec3 shift = {1e7, -3e6, 5e6};
+  const MeshResult far = mesh_surface(transformed(cube, 1, shift), coarse(), {});
+  expect_valid(far);
+  EXPECT_EQ(far.mesh.num_hexes(), expected);
+  EXPECT_NEAR(distance(bounding_box(far.mesh).lo, shift), 0, 1e-6);
+}
+
+TEST(MeshSurface, SeparatePartsStaySeparate) {
+  const TriMesh two =
+      merged(test::unit_cube_surface(), transformed(test::unit_cube_surface(), 1, {1.5, 0.2, 0}));
+  const MeshResult r = mesh_surface(two, coarse(), {});
+  expect_valid(r);
+  EXPECT_EQ(r.verdict.topology.num_components, 2u);
+}
+
+TEST(MeshSurface, RefinementGoesWhereTheFitMissed) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.006;
+  options.sizing.deviation_factor = 8;  // far too coarse a start
+  options.max_rounds = 6;
+  const MeshResult r = mesh_surface(test::unit_sphere_surface(5), options, {});
+  expect_valid(r);
+  ASSERT_GT(r.num_rounds, 0);
+  EXPECT_GT(r.rounds.front().max_distance, options.sizing.tolerance);
+  EXPECT_LE(r.verdict.distance->max_two_way(), options.sizing.tolerance);
+  EXPECT_DOUBLE_EQ(r.rounds[static_cast<std::size_t>(r.best_round)].max_distance,
+                   r.verdict.distance->max_two_way());
+  for (std::size_t k = 1; k < r.rounds.size(); ++k)
+    EXPECT_GT(r.rounds[k].num_cells, r.rounds[k - 1].num_cells);
+}
+
+TEST(MeshSurface, ASinglePassMakesOneRound) {
+  MeshOptions options = coarse();
+  use_single_pass(options);
+  const MeshResult r = mesh_surface(test::unit_sphere_surface(3), options, {});
+  expect_valid(r);
+  EXPECT_EQ(r.num_rounds, 0);
+  EXPECT_EQ(r.rounds.size(), 1u);
+}
+
+TEST(MeshSurface, ThePapersSizingAndEveryPairingGiveValidMeshes) {
+  for (Pairing pairing : {Pairing::Blocks, Pairing::Octree}) {
+    MeshOptions options = coarse();
+    options.sizing.sizing = Sizing::Thickness;
+    options.complete.pairing = pairing;
+    options.max_rounds = 0;
+    expect_valid(mesh_surface(test::unit_sphere_surface(3), options, {}));
+  }
+}
+
+TEST(MeshSurface, AMeshTooCoarseFailsTheGateByName) {
+  MeshOptions options;
+  options.sizing.max_level = 2;
+  options.max_rounds = 0;
+  const MeshResult r = mesh_surface(test::unit_sphere_surface(4), options, {});
+  EXPECT_GT(r.mesh.num_hexes(), 0u);
+  ASSERT_EQ(r.failures.size(), 1u);
+  EXPECT_NE(r.failures[0].find("departs from the surface"), std::string::npos) << r.failures[0];
+}
+
+TEST(MeshSurface, BudgetsCostLevelsBeforeTheyCostTheMesh) {
+  MeshOptions options;
+  options.sizing.min_level = 1;
+  options.max_rounds = 0;
+  const TriMesh surface = test::unit_sphere_surface(4);
+  const std::size_t free = mesh_surface(surface, options, {}).grid.num_cells();
+  options.max_hexes = free / 2;
+  const MeshResult r = mesh_surface(surface, options, {});
+  EXPECT_LE(r.grid.num_cells(), options.max_hexes);
+  EXPECT_TRUE(std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& w) {
+    return w.find("more than the budget") != std::string::npos;
+  }));
+  options.max_hexes = 2;
+  try {
+    mesh_surface(surface, options, {});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::OutOfResources);
+  }
+}
+
+TEST(MeshSurface, StopsWhenCancelled) {
+  std::atomic<bool> cancel{false};
+  Context context;
+  context.cancel = &cancel;
+  context.on_progress = [&](std::string_view stage, double) {
+    if (stage == "sizing") cancel = true;
+  };
+  try {
+    mesh_surface(test::unit_sphere_surface(3), coarse(), context);
+    ADD_FAILURE() << "not cancelled";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::Cancelled);
+  }
+}
+
+TEST(MeshSurface, SurfacesThatEncloseNothingAreRefused) {
+  TriMesh sheet;
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}) sheet.positions.push_back(p);
+  sheet.tris.push_back({VertId(0), VertId(1), VertId(2)});
+  EXPECT_THROW(mesh_surface(sheet, coarse(), {}), Error);
+  EXPECT_THROW(mesh_surface({}, coarse(), {}), Error);
+}
+
+// Random convex bodies: hulls are hard to write, so boxes under random linear maps.
+TEST(MeshSurface, RandomParallelepipedsAreMeshedValidly) {
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> u(-0.4, 0.4);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Vec3 a = {1, u(rng), u(rng)}, b = {u(rng), 1, u(rng)}, c = {u(rng), u(rng), 1};
+    TriMesh body = test::unit_cube_surface();
+    for (Vec3& p : body.positions) p = a * p.x + b * p.y + c * p.z;
+    const MeshResult r = mesh_surface(body, coarse(), {});
+    SCOPED_TRACE(trial);
+    expect_valid(r);
+    EXPECT_NEAR(r.verdict.quality.total_volume / det(a, b, c), 1, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace hexwright
