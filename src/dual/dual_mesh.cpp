@@ -5,6 +5,7 @@
 
 #include "dual/base_mesh.h"
 #include "dual/core_planes.h"
+#include "dual/crossed_cells.h"
 #include "dual/optimize.h"
 #include "dual/pillow_stack.h"
 #include "dual/positions.h"
@@ -16,15 +17,27 @@ namespace {
 
 using namespace dual;
 
+void reject_unpaired(std::size_t depth, std::size_t num_partners) {
+  throw Error(ErrorCode::BadArgument,
+              "the grid is not paired at depth " + std::to_string(depth) + ": " +
+                  std::to_string(num_partners) +
+                  " cells are missing from its 2x2x2 blocks; run complete() with pairing blocks "
+                  "or octree first, or use the mode sheets");
+}
+
+// From the coarsest depth on, as cells split here are parents at the next one.
 void choose_all_core_planes(std::vector<SplitNodes>& split, const Domain& domain, DualMode mode) {
+  constexpr int kMaxRounds = 10;
   for (std::size_t depth = 0; depth < split.size(); ++depth) {
-    const auto report = choose_core_planes(split[depth], static_cast<int>(depth), domain);
+    const int d = static_cast<int>(depth);
+    auto report = choose_core_planes(split[depth], d, domain);
     if (mode == DualMode::Blocks && report.num_partners > 0)
-      throw Error(ErrorCode::BadArgument,
-                  "the grid is not paired at depth " + std::to_string(depth) + ": " +
-                      std::to_string(report.num_partners) +
-                      " cells are missing from its 2x2x2 blocks; run complete() with pairing "
-                      "blocks or octree first, or use the mode sheets");
+      reject_unpaired(depth, report.num_partners);
+    const SplitNodes* above = depth > 0 ? &split[depth - 1] : nullptr;
+    for (int round = 0; round < kMaxRounds && report.num_partners > 0; ++round) {
+      if (split_crossed_cells(split[depth], above, d, domain) == 0) break;
+      report = choose_core_planes(split[depth], d, domain);
+    }
   }
 }
 

@@ -22,8 +22,10 @@ struct Pass {
   ShapeEnergy shape;
 };
 
-// Ever higher powers, so that the worst corners dominate at the end.
+// First almost everywhere for the mean, then ever higher powers, so that the worst corners dominate
+// at the end.
 constexpr Pass kImprovePasses[] = {
+    {0.9, 2, 1, {0.8, 1, 0}},
     {0.5, 3, 2, {0.5, 2, 0}},
     {0.45, 6, 2, {0.9, 4, 0}},
     {0.42, 6, 3, {0.9, 8, 0}},

@@ -48,7 +48,23 @@ std::array<BrickBits, 27> grow_strong(BrickBits w) {
 }  // namespace
 
 std::array<BrickBits, 27> grow_by_neighbours(BrickBits w, Balance balance) {
-  return balance == Balance::Weak ? grow_weak(w) : grow_strong(w);
+  switch (balance) {
+    case Balance::Weak:
+      return grow_weak(w);
+    case Balance::Strong:
+      return grow_strong(w);
+    default:
+      break;  // Relaxed: one depth above needs the parents alone
+  }
+  std::array<BrickBits, 27> own{};
+  own[13] = w;
+  return own;
+}
+
+BrickSet required_two_above(const BrickSet& split, int depth, const LatticeDomain& domain,
+                            const BrickSet& input) {
+  const BrickSet halo = required_above(split, depth, Balance::Strong, domain, BrickSet());
+  return required_above(halo, depth - 1, Balance::Relaxed, domain, input);
 }
 
 BrickSet required_above(const BrickSet& split, int depth, Balance balance,

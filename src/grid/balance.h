@@ -13,6 +13,11 @@ namespace hexwright {
 BrickSet required_above(const BrickSet& split, int depth, Balance balance,
                         const LatticeDomain& domain, const BrickSet& input);
 
+/// The same two depths above, for the relaxed rule: every node of `split` (of this depth, >= 2) and
+/// all its neighbours in the domain lie in nodes of depth - 1.
+BrickSet required_two_above(const BrickSet& split, int depth, const LatticeDomain& domain,
+                            const BrickSet& input);
+
 /// Grows one brick's nodes by their neighbours; entry n is what lands in neighbour n.
 std::array<BrickBits, 27> grow_by_neighbours(BrickBits w, Balance balance);
 

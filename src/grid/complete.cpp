@@ -17,8 +17,11 @@ namespace {
 
 NestedSets balance_only(const NestedSets& input, Balance balance, const LatticeDomain& domain) {
   NestedSets out = input;
-  for (std::size_t d = out.size(); d-- > 1;)
-    out[d - 1] = required_above(out[d], static_cast<int>(d), balance, domain, input[d - 1]);
+  for (int d = static_cast<int>(out.size()) - 2; d >= 0; --d) {
+    out[d] = required_above(out[d + 1], d + 1, balance, domain, input[d]);
+    if (balance == Balance::Relaxed && d + 2 < static_cast<int>(out.size()))
+      out[d] = required_two_above(out[d + 2], d + 2, domain, out[d]);
+  }
   return out;
 }
 
@@ -84,6 +87,12 @@ NestedSets complete_sets(const NestedSets& input, const CompleteOptions& options
 CompleteResult complete(const Grid& grid, const CompleteOptions& options, const Context& context) {
   if (const auto issue = grid.find_problem())
     throw Error(ErrorCode::BadArgument, "complete: " + issue->message);
+  const bool needs_blocks =
+      options.pairing == Pairing::Blocks || options.pairing == Pairing::Octree;
+  if (options.balance == Balance::Relaxed && needs_blocks)
+    throw Error(ErrorCode::BadArgument,
+                "complete: relaxed balance goes with pairing sheets or none; blocks need weak "
+                "or strong balance");
   const LatticeDomain domain(grid.roots, grid.finest_level);
   CompleteResult result;
   CompleteReport& report = result.report;

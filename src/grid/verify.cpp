@@ -120,12 +120,25 @@ std::optional<Issue> find_unpaired_depth(const BrickSet& split, int depth,
   return crossed_blocks(split, clusters, conflicts, labels, depth, domain);
 }
 
+std::optional<Issue> find_unbalanced_by_two(const NestedSets& sets, const LatticeDomain& domain) {
+  for (int d = 2; d < static_cast<int>(sets.size()); ++d) {
+    const BrickSet needed = required_two_above(sets[d], d, domain, BrickSet());
+    const auto missing = find_missing(needed, sets[d - 2]);
+    if (!missing) continue;
+    const auto [leaf, level] = covering_leaf(sets, *missing, d - 2);
+    return Issue{fmt::format("{} is too coarse: it has neighbours of level {}",
+                             name_of("cell", leaf, level, domain), d + 1)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Issue> find_unbalanced(const Grid& grid, Balance balance) {
   check_grid(grid, "find_unbalanced");
   const LatticeDomain domain(grid.roots, grid.finest_level);
   const NestedSets sets = split_sets_of(grid, domain);
+  if (balance == Balance::Relaxed) return find_unbalanced_by_two(sets, domain);
   for (int d = 1; d < static_cast<int>(sets.size()); ++d) {
     const BrickSet needed = required_above(sets[d], d, balance, domain, BrickSet());
     const auto missing = find_missing(needed, sets[d - 1]);

@@ -31,7 +31,9 @@ Json describe_options(const MeshOptions& o) {
           {"max_level", o.sizing.max_level},
           {"max_cells", o.sizing.max_cells},
           {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
-          {"balance", o.complete.balance == Balance::Strong ? "strong" : "weak"},
+          {"balance", o.complete.balance == Balance::Strong    ? "strong"
+                      : o.complete.balance == Balance::Relaxed ? "relaxed"
+                                                               : "weak"},
           {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
           {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
           {"feature_angle_deg", degrees(o.fit.features.crease_angle)},

@@ -63,6 +63,18 @@ TEST(Complete, ResultIsBalancedPairedAndNowhereCoarser) {
   });
 }
 
+TEST(Complete, RelaxedBalanceAllowsTwoLevels) {
+  for_random_grids(8, 6, [](const Grid& grid, Balance stricter) {
+    const Grid out = completed(grid, Balance::Relaxed, Pairing::Sheets);
+    EXPECT_FALSE(find_unbalanced(out, Balance::Relaxed));
+    EXPECT_TRUE(is_nowhere_coarser(out, grid));
+    EXPECT_TRUE(stricter == Balance::Weak ||
+                is_nowhere_coarser(completed(grid, stricter, Pairing::Sheets), out));
+    EXPECT_EQ(completed(out, Balance::Relaxed, Pairing::Sheets).cells, out.cells);
+    EXPECT_THROW(completed(grid, Balance::Relaxed, Pairing::Blocks), Error);
+  });
+}
+
 TEST(Complete, IsIdempotent) {
   for_random_grids(2, 5, [](const Grid& grid, Balance balance) {
     for (const Pairing pairing : kPairings) {

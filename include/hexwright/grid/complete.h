@@ -14,8 +14,10 @@
 namespace hexwright {
 
 enum class Balance {
-  Weak,   ///< face neighbours differ by at most one level
-  Strong  ///< cells sharing a face, edge or vertex differ by at most one level
+  Relaxed,  ///< cells sharing a face, edge or vertex differ by at most two levels; enough for
+            ///< sheets
+  Weak,     ///< face neighbours differ by at most one level
+  Strong    ///< cells sharing a face, edge or vertex differ by at most one level
 };
 
 enum class Pairing {
