@@ -23,7 +23,10 @@ IdVector<HexId, char> find_kept(const HexMesh& mesh,
       low = std::min(low, dot(mesh.positions[v], normal));
       high = std::max(high, dot(mesh.positions[v], normal));
     }
-  const double plane = low + cut->offset * (high - low);
+  // The layer of a symmetric mesh that the plane halves has its centres on it but for noise: it
+  // stays as a whole.
+  constexpr double kNoise = 0.003;
+  const double plane = low + (cut->offset + kNoise) * (high - low);
   parallel_for(mesh.num_hexes(), [&](std::size_t i) {
     is_kept[HexId(i)] = dot(center_of(mesh.corners(HexId(i))), normal) <= plane;
   });
