@@ -30,7 +30,7 @@ void snap_to_targets(FitState& state, const FitTarget& target, double least_qual
     parallel_for(
         verts.size(),
         [&](std::size_t i) {
-          if (state.is_boundary(verts[i]) && state.move[verts[i]] == MoveIn::Space)
+          if (state.is_boundary(verts[i]) && state.move[verts[i]] != MoveIn::Point)
             snap_vertex(state, verts[i], least_quality);
         },
         64);

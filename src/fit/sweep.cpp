@@ -31,12 +31,26 @@ void mark_dirty(FitState& state, VertId v) {
 }
 
 double solve_vertex(FitState& state, VertId v, const SweepOptions& options, VertexNewton& newton) {
-  const double moved = newton.solve(v, state.stars[v], make_goal(state, v, options.weight),
-                                    options.shape, IdSpan<VertId, Vec3>(state.mesh.positions));
-  if (moved > options.tolerance * state.size[v]) {
+  ShapeEnergy shape = options.shape;
+  const double h = state.size[v];
+  if (options.untangle_share > 0) shape.untangle = options.untangle_share * h * h * h;
+  const Vec3 origin = state.mesh.positions[v];
+  const auto star = state.stars[v];
+  const double moved = newton.solve(v, star, make_goal(state, v, options.weight), shape,
+                                    IdSpan<VertId, Vec3>(state.mesh.positions));
+  if (moved > 0 && options.quality_floor > 0) {
+    const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
+    const double after = min_scaled_jacobian_around(state.mesh.positions[v], star, positions);
+    if (after < options.quality_floor &&
+        after < min_scaled_jacobian_around(origin, star, positions)) {
+      state.mesh.positions[v] = origin;
+      return 0;
+    }
+  }
+  if (moved > options.tolerance * h) {
     mark_dirty(state, v);
-    for (const HexStar& star : state.stars[v])
-      for (VertId u : star) mark_dirty(state, u);
+    for (const HexStar& corner : star)
+      for (VertId u : corner) mark_dirty(state, u);
   }
   return moved;
 }

@@ -12,6 +12,10 @@ struct SweepOptions {
   ShapeEnergy shape;
   double weight = 0;        ///< of the attachment; divided by h^2 at each vertex
   double tolerance = 0.03;  ///< a move shorter than this (in h) makes no neighbour dirty
+  /// When positive: a move that takes the least scaled Jacobian around the vertex below this, and
+  /// below what it was, is undone.
+  double quality_floor = 0;
+  double untangle_share = 0;  ///< when positive: regularises determinants by this share of h^3
 };
 
 /// Solves every dirty vertex once, colour by colour; returns how many. The same for any number of

@@ -16,6 +16,10 @@ struct ImproveOptions {
 struct ImproveReport {
   double min_before = 0, min_after = 0, avg_before = 0, avg_after = 0;
   HexId worst_hex;
+  /// No placement of the vertices that may move gives a larger least scaled Jacobian than this:
+  /// what the held boundary allows. When min_after reaches it, the mesh cannot be improved.
+  double upper_bound = 1;
+  HexId bounding_hex;           ///< where the held boundary sets that bound
   bool worst_is_fixed = false;  ///< all vertices of the worst corner are held by the fixed boundary
 };
 
