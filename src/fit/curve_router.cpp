@@ -6,6 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "fit/ban_short_curves.h"
+#include "fit/curve_waypoints.h"
+
 namespace hexwright::fitting {
 namespace {
 
@@ -14,7 +17,6 @@ constexpr double kHistoryStep = 1.5;
 constexpr double kPressureGrowth = 1.5;
 constexpr int kPressureRounds = 14;
 constexpr std::array<int, 3> kRelocationRounds = {14, 24, 34};
-constexpr double kWindingRatio = 1.6;  // arc over chord from which a curve needs waypoints
 
 std::int64_t edge_key(VertId a, VertId b) {
   return (static_cast<std::int64_t>(std::min(a, b).value()) << 32) | std::max(a, b).value();
@@ -145,29 +147,40 @@ VertId CurveRouter::best_waypoint(CurveId c, double arc) const {
   return best;
 }
 
-/// The path's ends; and two vertices on the way where the shortest path would miss the curve.
-void CurveRouter::choose_waypoints(CurveId c) {
-  const FeatureCurve& curve = in_.features.curves[c];
+/// The corners of an open curve, the vertex nearest to the start of a loop.
+bool CurveRouter::choose_ends(CurveId c) {
   auto& w = routes_[c].waypoints;
-  const VertId third = best_waypoint(c, curve.length() / 3);
-  const VertId two_thirds = best_waypoint(c, 2 * curve.length() / 3);
-  bool needs_middle = true;
-  if (curve.is_closed) {
-    const VertId start = best_waypoint(c, 0);
-    w = {start, third, two_thirds, start};
-    if (start == third || start == two_thirds) return kill(c, "smaller than the mesh resolves");
+  if (in_.features.curves[c].is_closed) {
+    w.front() = w.back() = best_waypoint(c, 0);
   } else {
     const auto [first, last] = in_.ends.curve_to_corners[c];
-    const VertId a = corner_verts_[static_cast<std::size_t>(first)];
-    const VertId b = corner_verts_[static_cast<std::size_t>(last)];
-    if (!a.is_valid() || !b.is_valid()) return kill(c, "no boundary vertex for its corner");
-    const double chord = distance(in_.surface.positions[curve.verts.front()],
-                                  in_.surface.positions[curve.verts.back()]);
-    needs_middle = first == last || curve.length() > kWindingRatio * chord;
-    w = needs_middle ? std::vector<VertId>{a, third, two_thirds, b} : std::vector<VertId>{a, b};
+    w.front() = corner_verts_[static_cast<std::size_t>(first)];
+    w.back() = corner_verts_[static_cast<std::size_t>(last)];
   }
-  if (needs_middle && (!third.is_valid() || !two_thirds.is_valid() || third == two_thirds))
-    kill(c, "smaller than the mesh resolves");
+  return w.front().is_valid() && w.back().is_valid();
+}
+
+/// The path's ends and the vertices it must pass. Fails where two that should differ are the same.
+void CurveRouter::choose_waypoints(CurveId c) {
+  auto& waypoints = routes_[c].waypoints;
+  auto& arcs = routes_[c].arcs;
+  if (arcs.empty())
+    arcs = find_waypoint_arcs(in_.surface, in_.features.curves[c],
+                              mean_edge_length(in_.boundary, in_.tubes[c]));
+  waypoints.assign(arcs.size(), VertId{});
+  if (!choose_ends(c)) {
+    waypoints.clear();
+    return kill(c, in_.features.curves[c].is_closed ? "no boundary vertex near it"
+                                                    : "no boundary vertex for its corner");
+  }
+  for (std::size_t k = 1; k + 1 < arcs.size(); ++k) {
+    waypoints[k] = best_waypoint(c, arcs[k]);
+    const bool is_new =
+        waypoints[k].is_valid() &&
+        std::find(waypoints.begin(), waypoints.begin() + static_cast<std::ptrdiff_t>(k),
+                  waypoints[k]) == waypoints.begin() + static_cast<std::ptrdiff_t>(k);
+    if (!is_new) return kill(c, "smaller than the mesh resolves");
+  }
 }
 
 // --- corners that move ---

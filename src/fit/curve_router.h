@@ -44,6 +44,7 @@ class CurveRouter {
  private:
   struct Route {
     std::vector<VertId> waypoints;  // the path's ends and what it must pass in between
+    std::vector<double> arcs;       // of the waypoints; ascending, a loop's ends are 0 and length
     std::vector<VertId> path;
     std::string reason;
     bool is_alive = true;
@@ -51,6 +52,8 @@ class CurveRouter {
   struct Search;  // what one segment's search needs
 
   void choose_waypoints(CurveId c);
+  bool choose_ends(CurveId c);
+  bool is_in_window(const Search& search, const TubeVert& t) const;
   VertId best_waypoint(CurveId c, double arc) const;
   bool route(CurveId c);
   bool route_segment(const Search& search, std::vector<VertId>& path);

@@ -9,6 +9,7 @@ namespace hexwright::fitting {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kWindowSlack = 3;    // edge lengths beyond a segment's arcs
 constexpr double kMaxDistanceSq = 4;  // a vertex farther than two edge lengths costs no more
 
 struct QueueItem {
@@ -24,6 +25,7 @@ struct QueueItem {
 struct CurveRouter::Search {
   CurveId curve;
   VertId source, target;
+  double arc_lo, arc_hi;  // of the waypoints; vertices nearest to other parts of the curve are out
 };
 
 void CurveRouter::load_tube(CurveId c) {
@@ -40,11 +42,12 @@ void CurveRouter::load_tube(CurveId c) {
 bool CurveRouter::route(CurveId c) {
   load_tube(c);
   const auto& waypoints = routes_[c].waypoints;
+  const auto& arcs = routes_[c].arcs;
   std::vector<VertId> path{waypoints[0]};
   for (VertId v : waypoints) is_on_path_[v.index()] = 1;
   bool found = true;
   for (std::size_t k = 1; k < waypoints.size() && found; ++k) {
-    found = route_segment({c, waypoints[k - 1], waypoints[k]}, path);
+    found = route_segment({c, waypoints[k - 1], waypoints[k], arcs[k - 1], arcs[k]}, path);
     for (VertId v : path) is_on_path_[v.index()] = 1;
   }
   for (VertId v : waypoints) is_on_path_[v.index()] = 0;
@@ -53,12 +56,25 @@ bool CurveRouter::route(CurveId c) {
   return found;
 }
 
+bool CurveRouter::is_in_window(const Search& search, const TubeVert& t) const {
+  const FeatureCurve& curve = in_.features.curves[search.curve];
+  const double slack = kWindowSlack * in_.boundary.edge_length[t.vert];
+  const auto is_in = [&](double arc) {
+    return arc >= search.arc_lo - slack && arc <= search.arc_hi + slack;
+  };
+  if (is_in(t.arc)) return true;
+  if (curve.verts.front() != curve.verts.back()) return false;
+  return is_in(t.arc - curve.length()) || is_in(t.arc + curve.length());
+}
+
 bool CurveRouter::may_enter(const Search& search, VertId from, VertId to) const {
   if (to == search.target)
     return !(from == search.source && is_corner(from) && is_corner(to) &&
              is_taken_edge(from, to, search.curve));
   if (is_corner(to) || is_on_path_[to.index()] || tube_slot_[to.index()] < 0) return false;
-  return is_sharing_allowed_ || occupancy_[to.index()] == 0;
+  if (!is_sharing_allowed_ && occupancy_[to.index()] > 0) return false;
+  return is_in_window(search,
+                      in_.tubes[search.curve][static_cast<std::size_t>(tube_slot_[to.index()])]);
 }
 
 double CurveRouter::step_cost(const Search& search, VertId from, VertId to) const {

@@ -120,17 +120,18 @@ class Fitter {
                  context_);
   }
 
-  // Curves that the mesh's edges cannot follow are not looked for.
+  // Free ends and loops that not even the finest edges could follow are pruned; the mapping leaves
+  // out what is too short for the edges around it.
   void find_features(const FitState& state) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (VertId v : state.kind.ids()) {
-      if (!state.is_boundary(v)) continue;
-      sum += state.size[v];
-      ++count;
-    }
+    std::vector<double> sizes;
+    for (VertId v : state.kind.ids())
+      if (state.is_boundary(v)) sizes.push_back(state.size[v]);
     FeatureOptions features = options_.features;
-    features.min_length = 4 * sum / static_cast<double>(std::max<std::size_t>(count, 1));
+    if (!sizes.empty()) {
+      const auto decile = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 10);
+      std::nth_element(sizes.begin(), decile, sizes.end());
+      features.min_length = 4 * *decile;
+    }
     features_ = extract_features(surface_.surface(), features);
   }
 

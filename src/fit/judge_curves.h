@@ -11,7 +11,7 @@ namespace hexwright::fitting {
 struct CurveVerdicts {
   IdVector<CurveId, double> residual;  ///< largest distance of a vertex from its curve or corner,
                                        ///< in sizes; of mapped curves
-  IdVector<CurveId, char> is_bad;  ///< mapped, and the residual is above the limit
+  IdVector<CurveId, char> is_bad;      ///< mapped, and the residual is above the limit
   std::size_t num_bad = 0;
   double bad_length = 0;  ///< of the surface's curves that are bad or not mapped
 };

@@ -6,6 +6,7 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "fit/ban_short_curves.h"
 #include "fit/curve_router.h"
 
 namespace hexwright::fitting {
@@ -124,13 +125,20 @@ FeatureMapping map_features(const BoundaryQuads& boundary, const TriMesh& surfac
                             const FeatureGraph& features, const FeatureMapOptions& options) {
   const BoundaryGraph graph(boundary.positions.size(), boundary.quads);
   const VertReach tree(boundary, graph.verts(), std::max(options.tube_reach, options.corner_reach));
-  const CornerEnds ends = find_corner_ends(features, options.is_banned);
   const auto tubes = compute_tubes(boundary, tree, surface, features, options);
-  const RoutingProblem problem{boundary, graph, surface, features, ends, tubes, options};
+  FeatureMapOptions narrowed = options;
+  narrowed.is_banned.resize(features.curves.size(), 0);
+  const auto is_short =
+      ban_short_curves(boundary, features, tubes, options.min_edges, narrowed.is_banned);
+  const CornerEnds ends = find_corner_ends(features, narrowed.is_banned);
+  const RoutingProblem problem{boundary, graph, surface, features, ends, tubes, narrowed};
   CurveRouter router(
       problem, match_corners(boundary, graph, tree, surface, features, ends, options.corner_reach));
   router.run();
-  return finish(router, problem);
+  FeatureMapping mapping = finish(router, problem);
+  for (CurveId c : is_short.ids())
+    if (is_short[c]) mapping.curves[c].reason = "shorter than the mesh resolves";
+  return mapping;
 }
 
 }  // namespace hexwright::fitting

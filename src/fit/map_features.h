@@ -19,6 +19,7 @@ struct FeatureMapOptions {
   double tube_reach = 2.2;      ///< so is every vertex of a path from its curve
   double distance_weight = 10;  ///< cost factor of squared distance (in edge lengths) to the curve
   int max_iterations = 45;
+  double min_edges = 4;  ///< freely ending curves and loops of fewer edges are left out
   /// Curves that must not be mapped; empty or one entry per curve.
   IdVector<CurveId, char> is_banned;
 };
