@@ -46,7 +46,7 @@ class HtgReader {
   }
 
   void read_frame() {
-    const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
+    constexpr const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
     for (int axis = 0; axis < 3; ++axis) {
       const auto coords = named("Grid", kNames[axis], true);
       if (coords.size() < 2) fail("the grid is not three-dimensional");
@@ -206,7 +206,7 @@ std::string tuples(std::size_t count) { return fmt::format(" NumberOfTuples=\"{}
 
 void write_root_coordinates(const Grid& grid, const HtgTreeBuilder& builder, VtkXmlWriter& xml) {
   xml.open("Grid");
-  const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
+  constexpr const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> coords;
     const auto a = static_cast<std::size_t>(axis);

@@ -89,24 +89,24 @@ class VtkConverter {
 
   void add_cell(std::span<const std::int64_t> cell) {
     switch (grid_.types[cell_]) {
-      case kVtkHexahedron:
+      case VtkHexahedron:
         return add_hex(to_verts<8>(cell));
-      case kVtkVoxel: {
+      case VtkVoxel: {
         const auto v = to_verts<8>(cell);
         return add_hex({v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]});
       }
-      case kVtkTetra:
+      case VtkTetra:
         file_.tets.push_back(to_verts<4>(cell));
         return;
-      case kVtkQuad:
+      case VtkQuad:
         file_.labels.quads.push_back(
             {to_verts<4>(cell), to_id<PatchId>(integer_at(patch_, cell_))});
         return;
-      case kVtkLine:
+      case VtkLine:
         file_.labels.edges.push_back(
             {to_verts<2>(cell), to_id<CurveId>(integer_at(curve_, cell_))});
         return;
-      case kVtkVertex:
+      case VtkVertex:
         file_.labels.corners.push_back(to_verts<1>(cell)[0]);
         return;
       default:
@@ -234,15 +234,15 @@ void add_set_cells(const HexMesh& mesh, VtkOutput& out) {
     curve.ints.push_back(curve_value);
   };
   for (const LabeledQuad& quad : mesh.labels.quads) {
-    add_out_cell(quad.verts, kVtkQuad, out);
+    add_out_cell(quad.verts, VtkQuad, out);
     add(quad.patch.value(), -1);
   }
   for (const LabeledEdge& edge : mesh.labels.edges) {
-    add_out_cell(edge.verts, kVtkLine, out);
+    add_out_cell(edge.verts, VtkLine, out);
     add(-1, edge.curve.value());
   }
   for (VertId v : mesh.labels.corners) {
-    add_out_cell(std::array{v}, kVtkVertex, out);
+    add_out_cell(std::array{v}, VtkVertex, out);
     add(-1, -1);
   }
   out.cell_data.push_back(std::move(patch));
@@ -276,7 +276,7 @@ VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options) {
   out.connectivity.reserve(8 * mesh.num_hexes());
   out.ends.reserve(mesh.num_hexes());
   out.types.reserve(mesh.num_hexes());
-  for (const auto& hex : mesh.hexes) add_out_cell(hex, kVtkHexahedron, out);
+  for (const auto& hex : mesh.hexes) add_out_cell(hex, VtkHexahedron, out);
   if (options.write_sets) add_set_cells(mesh, out);
   add_cell_fields(mesh, options, out);
   const BoundaryLabels& labels = mesh.labels;

@@ -12,13 +12,13 @@ namespace hexwright::io {
 
 /// Numbers of VTK's cell types.
 enum VtkCellType : std::int32_t {
-  kVtkVertex = 1,
-  kVtkLine = 3,
-  kVtkPixel = 8,
-  kVtkQuad = 9,
-  kVtkTetra = 10,
-  kVtkVoxel = 11,
-  kVtkHexahedron = 12
+  VtkVertex = 1,
+  VtkLine = 3,
+  VtkPixel = 8,
+  VtkQuad = 9,
+  VtkTetra = 10,
+  VtkVoxel = 11,
+  VtkHexahedron = 12
 };
 
 /// Every number type of the formats fits a double but for huge integers, which no index needs.
