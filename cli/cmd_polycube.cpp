@@ -44,13 +44,13 @@ std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
   return json.dump(2) + "\n";
 }
 
-void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result,
-                   const Verdict& verdict, Console& console) {
+void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, const Verdict& verdict,
+                   Console& console) {
   const PolycubeReport& r = result.report;
-  console.print(fmt::format("{}: {} hexes from {} cells on {} lattice cubes (spacing {:.4g}, {} "
-                            "charts)",
-                            cmd.output, result.mesh.num_hexes(), r.num_cells, r.num_roots,
-                            r.spacing, r.num_charts));
+  console.print(fmt::format(
+      "{}: {} hexes from {} cells on {} lattice cubes (spacing {:.4g}, {} "
+      "charts)",
+      cmd.output, result.mesh.num_hexes(), r.num_cells, r.num_roots, r.spacing, r.num_charts));
   console.print(fmt::format(
       "  map: {} tets, not positive: {} in the object, {} in the polycube; {} vertices bridged, {} "
       "hexes inverted before the optimisation",
@@ -72,8 +72,7 @@ void run(const PolycubeCommand& cmd, Program& program) {
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh);
-  if (!cmd.picture.empty())
-    write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);

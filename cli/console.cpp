@@ -21,8 +21,8 @@ extern "C" void on_interrupt(int) {
 }
 
 bool is_terminal() {
-  static const bool result = isatty(STDERR_FILENO) != 0;
-  return result;
+  static const bool kIsTerminal = isatty(STDERR_FILENO) != 0;
+  return kIsTerminal;
 }
 
 }  // namespace

@@ -227,13 +227,13 @@ std::vector<std::array<std::int64_t, kNumParities>> block_costs(const BrickSet& 
 
 std::vector<Conflict> find_conflicts(const BrickSet& required, const Clusters& clusters) {
   if (clusters.num_clusters < 2) return {};
-  static const ConflictTable table;
+  static const ConflictTable kTable;
   const std::size_t num_chunks = (required.num_bricks() + kBricksPerChunk - 1) / kBricksPerChunk;
   std::vector<std::vector<Conflict>> by_chunk(num_chunks);
   parallel_chunks(required.num_bricks(), kBricksPerChunk, [&](std::size_t begin, std::size_t end) {
     auto& list = by_chunk[begin / kBricksPerChunk];
     for (std::size_t b = begin; b < end; ++b)
-      brick_conflicts(required, clusters, static_cast<std::uint32_t>(b), table, list);
+      brick_conflicts(required, clusters, static_cast<std::uint32_t>(b), kTable, list);
     merge_conflicts(list);
   });
   std::vector<Conflict> all;

@@ -98,7 +98,7 @@ Grid sample_map(const TetMesh& object, const Lattice& lattice, const TetLocator&
           Spread spread;
           for (VertId v : verts_by_cell[CellId(c)]) spread.add(object.positions[v]);
           for (int k = 0; k < 27; ++k) {
-            const Vec3 at = {k % 3 / 2.0, k / 3 % 3 / 2.0, k / 9 / 2.0};
+            const Vec3 at = {k % 3 / 2.0, k / 3 % 3 / 2.0, k / 9 % 3 / 2.0};
             const Vec3 e = cell.extent();
             spread.add(interpolate(
                 object, locator.locate(cell.lo + Vec3{at.x * e.x, at.y * e.y, at.z * e.z})));
