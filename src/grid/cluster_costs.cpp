@@ -13,24 +13,26 @@ namespace {
 
 constexpr std::size_t kBricksPerChunk = 2048;
 
-/// Bit c of the result tells whether node c + offset is required, for a brick with the given
-/// neighbourhood; offset components within -1 .. 1.
-BrickBits shifted_by(const std::array<BrickBits, 27>& around, const LatticeCoord& offset) {
-  BrickBits out = 0;
-  for (int n = 0; n < 27; ++n) {
-    BrickBits w = around[n];
-    const std::array<int, 3> side = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-    for (int a = 0; a < 3 && w != 0; ++a) {
-      if (side[a] == 0)
-        w = offset[a] == 0 ? w : offset[a] > 0 ? shift_down(w, a) : shift_up(w, a);
-      else if (side[a] == offset[a])
-        w = offset[a] > 0 ? move_slice(w, a, 0, 3) : move_slice(w, a, 3, 0);
-      else
-        w = 0;
+/// A brick's word and its neighbours' along one axis, read at node offsets -1, 0 and +1.
+constexpr std::array<BrickBits, 3> read_shifted(BrickBits lower, BrickBits own, BrickBits upper,
+                                                int axis) {
+  return {shift_up(own, axis) | move_slice(lower, axis, 3, 0), own,
+          shift_down(own, axis) | move_slice(upper, axis, 0, 3)};
+}
+
+/// Entry n: bit c tells whether node c + offset n is required, for the 27 offsets of
+/// neighbour_number(). Axis by axis, so that each step reads three words.
+std::array<BrickBits, 27> shifted_words(std::array<BrickBits, 27> words) {
+  constexpr std::array<int, 3> kStride = {1, 3, 9};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int s = kStride[axis];
+    for (int n = 0; n < 27; ++n) {
+      if (n / s % 3 != 0) continue;
+      const auto read = read_shifted(words[n], words[n + s], words[n + 2 * s], axis);
+      for (int k = 0; k < 3; ++k) words[n + k * s] = read[k];
     }
-    out |= w;
   }
-  return out;
+  return words;
 }
 
 /// Bits whose place in their block of the given parity is `place` (bit a: upper along axis a).
@@ -53,27 +55,25 @@ constexpr PlaceMasks make_place_masks() {
 }
 constexpr PlaceMasks kPlaceMasks = make_place_masks();
 
-/// The step from one place of a block to another.
-constexpr LatticeCoord place_offset(int from, int to) {
-  return {(to & 1) - (from & 1), (to >> 1 & 1) - (from >> 1 & 1), (to >> 2) - (from >> 2)};
+/// Neighbour number of the step from one place of a block to another.
+constexpr int step_number(int from, int to) {
+  return neighbour_number((to & 1) - (from & 1), (to >> 1 & 1) - (from >> 1 & 1),
+                          (to >> 2) - (from >> 2));
 }
 
 /// Per parity: the nodes of `own` that come first in their block.
 std::array<BrickBits, kNumParities> representatives(BrickBits own,
                                                     const std::array<BrickBits, 27>& around) {
-  std::array<BrickBits, 27> shifted{};
-  for (int n = 0; n < 13; ++n)  // the offsets that come before 0 in (z, y, x) order
-    shifted[n] = shifted_by(around, {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+  const auto shifted = shifted_words(around);
+  // Per place: nodes that have an earlier required node in their block, were that their place.
+  std::array<BrickBits, 8> has_earlier{};
+  for (int place = 1; place < 8; ++place)
+    for (int before = 0; before < place; ++before)
+      has_earlier[place] |= shifted[step_number(place, before)];
   std::array<BrickBits, kNumParities> out{};
   for (Parity p = 0; p < kNumParities; ++p)
-    for (int place = 0; place < 8; ++place) {
-      BrickBits earlier = 0;
-      for (int before = 0; before < place; ++before) {
-        const LatticeCoord o = place_offset(place, before);
-        earlier |= shifted[neighbour_number(o[0], o[1], o[2])];
-      }
-      out[p] |= own & kPlaceMasks[p][place] & ~earlier;
-    }
+    for (int place = 0; place < 8; ++place)
+      out[p] |= own & kPlaceMasks[p][place] & ~has_earlier[place];
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "grid/block_sweep.h"
 #include "grid/descent.h"
 #include "grid/nested_sets.h"
+#include "grid/pose.h"
 
 namespace hexwright {
 namespace {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "grid/hash.h"
+
 namespace hexwright {
 namespace {
 
@@ -12,18 +14,6 @@ namespace {
 // depend on the machine: twice the sweep's, and what takes some milliseconds for small grids.
 constexpr std::size_t kWorkFactor = 2;
 constexpr std::size_t kMinWork = 60'000;
-
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
-
-std::uint64_t hash_of(const BrickSet& set, int depth) {
-  std::uint64_t h = mix(static_cast<std::uint64_t>(depth) + 1);
-  for (const Brick& b : set.bricks()) h = mix(h ^ mix(b.key)) + mix(b.bits);
-  return h;
-}
 
 /// Each cluster's conflicts, as positions in the problem's list.
 std::vector<std::vector<std::uint32_t>> conflicts_by_cluster(const DepthProblem& problem) {
@@ -83,6 +73,21 @@ std::vector<std::vector<std::uint32_t>> conflict_groups(
   return groups;
 }
 
+/// At most `count` clusters, those with the costliest labels, in order of their number.
+std::vector<std::uint32_t> largest_clusters(const DepthProblem& problem,
+                                            const std::vector<std::uint8_t>& labels,
+                                            std::size_t count) {
+  std::vector<std::uint32_t> out(labels.size());
+  std::iota(out.begin(), out.end(), 0u);
+  if (count >= out.size()) return out;
+  std::stable_sort(out.begin(), out.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return problem.costs[a][labels[a]] > problem.costs[b][labels[b]];
+  });
+  out.resize(count);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 std::int64_t total_cost(const DepthProblem& problem, const std::vector<std::uint8_t>& labels) {
   std::int64_t total = 0;
   for (std::size_t k = 0; k < labels.size(); ++k) total += problem.costs[k][labels[k]];
@@ -115,7 +120,7 @@ std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t 
   if (depth == 0) return 0;
   BrickSet required = sweep_.required(depth - 1, split);
   spend(split);
-  const std::uint64_t hash = hash_of(required, depth - 1);
+  const std::uint64_t hash = hash_of(required, static_cast<std::uint64_t>(depth));
   if (const auto known = cost_of_required_.find(hash); known != cost_of_required_.end())
     return known->second;
   spend(required);
@@ -129,7 +134,8 @@ std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t 
 }
 
 std::vector<Descent::Move> Descent::list_moves(const DepthProblem& problem,
-                                               const std::vector<std::uint8_t>& labels) const {
+                                               const std::vector<std::uint8_t>& labels,
+                                               std::size_t max_clusters) const {
   const auto conflicts = conflicts_by_cluster(problem);
   const std::int64_t cost = total_cost(problem, labels);
   auto scratch = labels;
@@ -140,13 +146,16 @@ std::vector<Descent::Move> Descent::list_moves(const DepthProblem& problem,
       move.cost += problem.costs[k][p] - problem.costs[k][labels[k]];
     moves.push_back(std::move(move));
   };
+  std::vector<std::uint32_t> all(problem.clusters.num_clusters);
+  std::iota(all.begin(), all.end(), 0u);
+  const auto largest = largest_clusters(problem, labels, max_clusters);
+  const auto groups = largest.size() == all.size() ? conflict_groups(problem, conflicts)
+                                                   : std::vector<std::vector<std::uint32_t>>();
   for (Parity p = 0; p < kNumParities; ++p) {
-    for (std::uint32_t k = 0; k < problem.clusters.num_clusters; ++k)
+    for (const std::uint32_t k : largest)
       if (p != labels[k]) add(followers(problem, conflicts, k, p, scratch), p);
-    for (const auto& group : conflict_groups(problem, conflicts)) add(group, p);
-    std::vector<std::uint32_t> all(problem.clusters.num_clusters);
-    std::iota(all.begin(), all.end(), 0u);
-    add(std::move(all), p);
+    for (const auto& group : groups) add(group, p);
+    add(all, p);
   }
   std::stable_sort(moves.begin(), moves.end(),
                    [](const Move& a, const Move& b) { return a.cost < b.cost; });
@@ -157,9 +166,12 @@ bool Descent::try_moves(const DepthProblem& problem, int depth, std::vector<std:
                         std::int64_t& best_total) {
   // Half of what is left for this depth: the coarser ones are cheaper to explore.
   const std::size_t stop = work_ + (budget_ - std::min(budget_, work_)) / 2;
+  // No more candidates than the budget could ever try.
+  const std::size_t work_per_move = problem.required.num_bricks() + kWorkPerSet;
+  const std::size_t max_clusters = (stop - std::min(stop, work_)) / work_per_move;
   const std::vector<std::uint8_t> start = labels;
   std::vector<std::uint8_t> best = labels;
-  for (const Move& move : list_moves(problem, start)) {
+  for (const Move& move : list_moves(problem, start, max_clusters)) {
     if (move.cost + bound_above(depth) >= best_total || work_ >= stop) break;
     context_.check_cancelled();
     std::vector<std::uint8_t> tried = start;

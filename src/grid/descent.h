@@ -31,8 +31,8 @@ class Descent {
   };
 
   std::vector<std::uint8_t> choose_labels(const DepthProblem& problem, int depth);
-  std::vector<Move> list_moves(const DepthProblem& problem,
-                               const std::vector<std::uint8_t>& labels) const;
+  std::vector<Move> list_moves(const DepthProblem& problem, const std::vector<std::uint8_t>& labels,
+                               std::size_t max_clusters) const;
   bool try_moves(const DepthProblem& problem, int depth, std::vector<std::uint8_t>& labels,
                  std::int64_t& best_total);
 

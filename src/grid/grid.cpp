@@ -89,28 +89,58 @@ std::optional<Issue> find_cell_problem(const Grid& grid, const GridCell& cell) {
   return std::nullopt;
 }
 
-/// Walks the leaves and reports the first that overlaps, leaves a gap or lies outside.
-std::optional<Issue> find_tiling_problem(const Grid& grid) {
+/// Position right after a cell, in the order of leaves.
+TilingPosition position_after(const Grid& grid, const TilingPosition& at, const GridCell& cell) {
   const MortonKey root_volume = MortonKey{1} << 3 * grid.finest_level;
+  const MortonKey end = at.key + (MortonKey{1} << 3 * (grid.finest_level - cell.level));
+  return end == root_volume ? TilingPosition{at.root + 1, 0} : TilingPosition{at.root, end};
+}
+
+/// Checks one cell against the position where the one before it ended.
+std::optional<Issue> find_step_problem(const Grid& grid, const GridCell& cell,
+                                       const TilingPosition& expected) {
+  if (auto issue = find_cell_problem(grid, cell)) return issue;
+  const TilingPosition at = position_of(grid.roots, cell.corner, grid.finest_level);
+  if (at.root == kNoRoot)
+    return Issue{fmt::format("{} lies outside the root cubes", name_of(grid, cell))};
+  if (at < expected)
+    return Issue{
+        fmt::format("{} overlaps an earlier cell or is out of order", name_of(grid, cell))};
+  if (at != expected)
+    return Issue{fmt::format("{}: no cell covers {} before it", name_of(grid, cell),
+                             name_of_gap(grid, expected))};
+  return std::nullopt;
+}
+
+/// First problem among the cells [begin, end), which follow a cell already known to be sound.
+std::optional<Issue> find_chunk_problem(const Grid& grid, std::size_t begin, std::size_t end) {
+  const std::vector<GridCell>& cells = grid.cells.raw();
   TilingPosition expected;
-  int deepest = 0;
-  for (const GridCell& cell : grid.cells) {
-    if (auto issue = find_cell_problem(grid, cell)) return issue;
-    const TilingPosition at = position_of(grid.roots, cell.corner, grid.finest_level);
-    if (at.root == kNoRoot)
-      return Issue{fmt::format("{} lies outside the root cubes", name_of(grid, cell))};
-    if (at < expected)
-      return Issue{
-          fmt::format("{} overlaps an earlier cell or is out of order", name_of(grid, cell))};
-    if (at != expected)
-      return Issue{fmt::format("{}: no cell covers {} before it", name_of(grid, cell),
-                               name_of_gap(grid, expected))};
-    deepest = std::max<int>(deepest, cell.level);
-    expected.key += MortonKey{1} << 3 * (grid.finest_level - cell.level);
-    if (expected.key == root_volume) expected = {expected.root + 1, 0};
+  if (begin > 0) {
+    const GridCell& last = cells[begin - 1];
+    if (find_cell_problem(grid, last)) return std::nullopt;  // the chunk before reports it
+    const TilingPosition at = position_of(grid.roots, last.corner, grid.finest_level);
+    if (at.root == kNoRoot) return std::nullopt;
+    expected = position_after(grid, at, last);
   }
-  if (expected.root < grid.roots.size())
-    return Issue{fmt::format("no cell covers {}", name_of_gap(grid, expected))};
+  for (std::size_t i = begin; i < end; ++i) {
+    if (auto issue = find_step_problem(grid, cells[i], expected)) return issue;
+    expected = position_after(grid, expected, cells[i]);
+  }
+  if (end < cells.size() || expected.root == grid.roots.size()) return std::nullopt;
+  return Issue{fmt::format("no cell covers {}", name_of_gap(grid, expected))};
+}
+
+std::optional<Issue> find_tiling_problem(const Grid& grid) {
+  if (grid.cells.empty()) return Issue{"the grid has no cells"};
+  constexpr std::size_t kCellsPerChunk = 1 << 16;
+  const auto first = parallel_reduce(
+      grid.num_cells(), std::optional<Issue>(),
+      [&](std::size_t begin, std::size_t end) { return find_chunk_problem(grid, begin, end); },
+      [](const auto& a, const auto& b) { return a ? a : b; }, kCellsPerChunk);
+  if (first) return first;
+  int deepest = 0;
+  for (const GridCell& cell : grid.cells) deepest = std::max<int>(deepest, cell.level);
   if (deepest != grid.finest_level)
     return Issue{fmt::format("finest_level is {} but the deepest cell has level {}",
                              grid.finest_level, deepest)};

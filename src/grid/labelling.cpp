@@ -9,6 +9,14 @@
 namespace hexwright {
 namespace {
 
+// Ties go to blocks with even centres, which touch fewer nodes of the depth above: two per axis
+// with their neighbours, not three. The tie-break rides in the low bits of the costs.
+constexpr int kTieBits = 24;
+
+std::int64_t with_tie_break(std::int64_t cost, Parity parity) {
+  return (cost << kTieBits) + std::popcount(static_cast<unsigned>(parity));
+}
+
 std::uint8_t cheapest_label(const LabelCosts& costs) {
   return static_cast<std::uint8_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
 }
@@ -17,6 +25,8 @@ LabelGraph make_graph(const std::vector<LabelCosts>& costs,
                       const std::vector<Conflict>& conflicts) {
   LabelGraph graph;
   graph.costs = costs;
+  for (LabelCosts& c : graph.costs)
+    for (Parity p = 0; p < kNumParities; ++p) c[p] = with_tie_break(c[p], p);
   graph.edges.resize(costs.size());
   graph.allowed.assign(costs.size(), 0xff);
   for (const Conflict& c : conflicts) {
@@ -88,8 +98,7 @@ void solve_group(const LabelGraph& graph, const std::vector<std::uint32_t>& grou
     result = solve_by_search(graph, limits.search_nodes);
   }
   for (std::size_t i = 0; i < group.size(); ++i) out.labels[group[i]] = result.best.labels[i];
-  out.cost += result.best.cost;
-  out.lower_bound += result.lower_bound;
+  out.lower_bound += result.lower_bound >> kTieBits;
   out.is_optimal = out.is_optimal && result.is_optimal;
 }
 
@@ -109,15 +118,15 @@ LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
   std::vector<std::uint32_t> local(costs.size());
   for (std::size_t u = 0; u < costs.size(); ++u) {
     if (!graph.edges[u].empty()) continue;
-    LabelCosts remaining = costs[u];
+    LabelCosts remaining = graph.costs[u];
     for (Parity p = 0; p < kNumParities; ++p)
       if (!(graph.allowed[u] >> p & 1)) remaining[p] = std::numeric_limits<std::int64_t>::max();
     out.labels[u] = cheapest_label(remaining);
-    out.cost += costs[u][out.labels[u]];
     out.lower_bound += costs[u][out.labels[u]];
   }
   for (const auto& group : find_groups(graph))
     solve_group(subgraph(graph, group, local), group, limits, out);
+  for (std::size_t u = 0; u < costs.size(); ++u) out.cost += costs[u][out.labels[u]];
   return out;
 }
 

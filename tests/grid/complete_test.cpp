@@ -8,6 +8,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "grid/grid_helpers.h"
+#include "grid/pose.h"
 #include "helpers.h"
 
 namespace hexwright {
@@ -112,6 +113,43 @@ TEST(Complete, ReportCountsWhatTheGridHolds) {
     EXPECT_TRUE(result.report.is_optimal_per_depth);
     EXPECT_EQ(result.report.gap, 0u);
   });
+}
+
+/// The grid seen in a pose and moved by whole roots.
+Grid posed_grid(const Grid& grid, const Pose& pose, const LatticeCoord& move) {
+  Roots roots;
+  const auto image = [&](const LatticeCoord& index, int level) {
+    LatticeCoord out;
+    for (int a = 0; a < 3; ++a) {
+      const std::int32_t x = index[pose.axis[a]];
+      out[a] = (pose.flip[a] ? -1 - x : x) + move[a] * (1 << level);
+    }
+    return out;
+  };
+  for (const LatticeCoord& root : grid.roots) roots.push_back(image(root, 0));
+  auto specs = test::specs_of(grid);
+  for (CellSpec& spec : specs) spec.index = image(spec.index, spec.level);
+  return make_grid(grid.frame, roots, specs);
+}
+
+TEST(Complete, CountIsTheSameInAllPosesAndAfterEvenMoves) {
+  std::mt19937 rng(8);
+  int num_distinct = 0;
+  for (int k = 0; k < 6; ++k)
+    for (const Roots& roots : sample_domains()) {
+      const Grid grid = random_grid(rng, roots, 3 + k % 2, 0.04);
+      for (const Pairing pairing : {Pairing::Blocks, Pairing::Octree}) {
+        const Balance balance = k % 2 ? Balance::Strong : Balance::Weak;
+        const std::size_t expected = completed(grid, balance, pairing).num_cells();
+        for (int n = 0; n < 48; n += 1 + (k + n) % 5) {
+          const LatticeCoord move = {2 * (n % 3), -2 * (n % 5), 2};
+          const Grid posed = posed_grid(grid, make_pose(n), move);
+          EXPECT_EQ(completed(posed, balance, pairing).num_cells(), expected) << "pose " << n;
+          num_distinct += posed.cells != grid.cells;
+        }
+      }
+    }
+  EXPECT_GT(num_distinct, 500);
 }
 
 TEST(Complete, SameResultForEveryThreadCount) {

@@ -1,0 +1,95 @@
+// Balance and pairing on generated grids of growing size.
+//
+// Arguments of every case: shape (0 sphere, 1 gyroid, 2 random points), depth, threads. Counters:
+// input leaves per second, leaves in and out, peak memory of the process per output leaf.
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/grid/complete.h"
+
+#include "grid_shapes.h"
+
+namespace hexwright::bench {
+namespace {
+
+/// Forgets the process's peak memory, so that each case is measured by itself (Linux).
+void reset_peak_memory() {
+  if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
+    std::fputs("5", file);
+    std::fclose(file);
+  }
+}
+
+/// Peak resident bytes since the last reset; 0 where /proc is missing.
+double peak_memory() {
+  double kilobytes = 0;
+  if (std::FILE* file = std::fopen("/proc/self/status", "r")) {
+    char line[256];
+    while (std::fgets(line, sizeof line, file))
+      if (std::strncmp(line, "VmHWM:", 6) == 0) std::sscanf(line + 6, "%lf", &kilobytes);
+    std::fclose(file);
+  }
+  return kilobytes * 1024;
+}
+
+/// The grid of the current arguments; kept, because cases with the same grid follow each other.
+const Grid& shape_grid(int shape, int depth) {
+  static std::unique_ptr<Grid> grid;
+  static int made_shape = -1, made_depth = -1;
+  if (shape != made_shape || depth != made_depth) {
+    grid.reset();
+    grid = std::make_unique<Grid>(make_shape_grid(static_cast<Shape>(shape), depth));
+    made_shape = shape;
+    made_depth = depth;
+  }
+  return *grid;
+}
+
+void run(benchmark::State& state, const CompleteOptions& options) {
+  const Grid& grid = shape_grid(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const ThreadLimit limit(static_cast<int>(state.range(2)));
+  std::size_t num_output = 0;
+  reset_peak_memory();
+  for (auto _ : state) {
+    const CompleteResult result = complete(grid, options, {});
+    num_output = result.grid.num_cells();
+    benchmark::DoNotOptimize(num_output);
+  }
+  state.counters["leaves_in"] = static_cast<double>(grid.num_cells());
+  state.counters["leaves_out"] = static_cast<double>(num_output);
+  state.counters["peak_B_per_leaf"] = peak_memory() / static_cast<double>(num_output);
+  state.counters["leaves_per_s"] = benchmark::Counter(
+      static_cast<double>(grid.num_cells()), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void balance_strong(benchmark::State& state) {
+  run(state, {Balance::Strong, Pairing::None, false});
+}
+void octree_weak(benchmark::State& state) { run(state, {Balance::Weak, Pairing::Octree, false}); }
+void blocks_sweep(benchmark::State& state) { run(state, {Balance::Weak, Pairing::Blocks, false}); }
+void blocks_descent(benchmark::State& state) { run(state, {Balance::Weak, Pairing::Blocks, true}); }
+
+void sizes(benchmark::internal::Benchmark* b) {
+  for (int shape = 0; shape < 3; ++shape)
+    for (const int depth : {5, 7, 9})
+      for (const int threads : {1, 2}) b->Args({shape, depth, threads});
+  b->ArgNames({"shape", "depth", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+/// About 1.4e8 leaves in; once, because it takes gigabytes.
+void huge(benchmark::internal::Benchmark* b) {
+  b->Args({0, 12, 2})->ArgNames({"shape", "depth", "threads"})->Iterations(1);
+  b->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(balance_strong)->Apply(sizes);
+BENCHMARK(octree_weak)->Apply(sizes);
+BENCHMARK(blocks_sweep)->Apply(sizes);
+BENCHMARK(blocks_descent)->Apply(sizes);
+BENCHMARK(blocks_sweep)->Name("huge_blocks_sweep")->Apply(huge);
+
+}  // namespace
+}  // namespace hexwright::bench
