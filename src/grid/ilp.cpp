@@ -79,6 +79,8 @@ NestedSets solve_hierarchy(const Grid& grid, const NestedSets& input, const IlpO
 IlpResult complete_by_ilp(const Grid& grid, const IlpOptions& options, const Context& context) {
   if (const auto issue = grid.find_problem())
     throw Error(ErrorCode::BadArgument, "complete_by_ilp: " + issue->message);
+  if (options.balance == Balance::Relaxed)
+    throw Error(ErrorCode::BadArgument, "complete_by_ilp: blocks need weak or strong balance");
   const LatticeDomain domain(grid.roots, grid.finest_level);
   const NestedSets input = split_sets_of(grid, domain);
   IlpResult result;
