@@ -1,6 +1,8 @@
 // Distances to facing walls, inside and outside, at points spread over the surface.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/shape_diameter.h"
@@ -51,6 +53,31 @@ double estimate_samples(const TriMesh& unit, double spacing) {
   return sum;
 }
 
+/// Chooses among the pieces of one triangle after the other so that a share of 1/spacing^2 of the
+/// area is sampled, evenly, and every triangle at least once. Needles have many small pieces;
+/// taking all would cost far more rays than their area is worth.
+class SampleThinner {
+ public:
+  explicit SampleThinner(double spacing) : area_per_sample_(spacing * spacing) {}
+
+  /// Appends the chosen ones of equal-sized pieces of a triangle with the given area.
+  void choose(std::span<const Vec3> pieces, double area, std::vector<Vec3>& out) {
+    const std::size_t before = out.size();
+    for (const Vec3& piece : pieces) {
+      carry_ += area / static_cast<double>(pieces.size()) / area_per_sample_;
+      if (carry_ < 1) continue;
+      carry_ -= std::floor(carry_);
+      out.push_back(piece);
+    }
+    if (out.size() == before) out.push_back(pieces[next_++ % pieces.size()]);
+  }
+
+ private:
+  double area_per_sample_;
+  double carry_ = 0;      ///< samples owed to the area so far
+  std::size_t next_ = 0;  ///< spreads the obligatory samples of needles along them
+};
+
 /// Least length x cosine over the rays that meet a wall facing back.
 double least_width(const RayScene& scene, const std::vector<ConeRay>& cone, const Vec3& from,
                    TriId tri, const Vec3& axis) {
@@ -78,9 +105,14 @@ std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spa
                 "the sample spacing asks for more than 20 million samples; use a coarser one");
   std::vector<Vec3> points;
   std::vector<TriId> tris;
+  SampleThinner thinner(unit_spacing);
+  std::vector<Vec3> pieces;
   for (TriId t : unit.tris.ids()) {
     if (scene.normal(t) == Vec3{}) continue;
-    sample_triangle(unit.corners(t), unit_spacing, points);
+    const auto c = unit.corners(t);
+    pieces.clear();
+    sample_triangle(c, unit_spacing, pieces);
+    thinner.choose(pieces, norm(cross(c[1] - c[0], c[2] - c[0])) / 2, points);
     tris.resize(points.size(), t);
   }
   auto cone = spread_cone(kNumRays - 1, kHalfAngle);
