@@ -36,9 +36,11 @@ void run(const ImproveCommand& cmd, Program& program) {
   program.console.print(
       fmt::format("{}: scaled Jacobian min {:.4f} -> {:.4f}, average {:.4f} -> {:.4f}", cmd.output,
                   report.min_before, report.min_after, report.avg_before, report.avg_after));
-  if (report.worst_is_fixed)
-    program.console.print(fmt::format("  the worst hex, {}, is held by the fixed boundary",
-                                      report.worst_hex.value()));
+  if (report.upper_bound < 1)
+    program.console.print(
+        fmt::format("  the held boundary allows no minimum above {:.4f} (hex {}){}",
+                    report.upper_bound, report.bounding_hex.value(),
+                    report.worst_is_fixed ? "; the worst corner is wholly held by it" : ""));
   if (report.min_after <= 0) {
     program.console.fail(cmd.output + ": some hexes are still inverted");
     program.exit_code = FailsGate;

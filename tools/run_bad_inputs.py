@@ -21,7 +21,7 @@ def try_file(path, args):
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.vtu"
         command = [str(args.binary), "mesh", str(path), "-o", str(output), "--quiet", *args.options]
-        code, seconds, peak, errors = run_limited(command, args.seconds, args.memory)
+        code, (seconds, _), peak, errors = run_limited(command, args.seconds, args.memory)
         left = sorted(p.name for p in Path(folder).iterdir())
         is_whole = output.exists() and output.read_bytes().rstrip().endswith(b"</VTKFile>")
     problems = []

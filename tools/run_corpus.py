@@ -23,7 +23,8 @@ SURFACES = {".obj", ".off", ".stl", ".ply"}
 
 
 def run_limited(command, seconds, memory_mib):
-    """Runs a command; returns exit code (None = timed out or killed for memory), seconds, peak MiB, stderr."""
+    """Runs a command; returns exit code (None = timed out or killed for memory), (wall, processor) seconds,
+    peak MiB, stderr."""
     start = time.monotonic()
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors)
@@ -43,7 +44,7 @@ def run_limited(command, seconds, memory_mib):
         code, text = None, f"more than {memory_mib} MiB"
     elif elapsed >= seconds:
         code, text = None, f"more than {seconds} s"
-    return code, elapsed, usage.ru_maxrss / 1024, text
+    return code, (elapsed, usage.ru_utime + usage.ru_stime), usage.ru_maxrss / 1024, text
 
 
 def watch_memory(process, limit_mib, too_large):
@@ -72,7 +73,7 @@ def mesh_model(model, args):
     code, seconds, peak, errors = run_limited(command + args.options, args.seconds, args.memory)
     reasons = [l.split("error: ", 1)[1] for l in errors.splitlines() if "error: " in l] or (
         [] if code == 0 else [errors.strip()[-300:]])
-    result = {"model": model.name, "exit": code, "seconds": seconds, "peak_mib": peak,
+    result = {"model": model.name, "exit": code, "seconds": seconds[0], "cpu_seconds": seconds[1], "peak_mib": peak,
               "reasons": [r.replace(str(model) + ": ", "") for r in reasons]}
     if report.exists():
         result["report"] = json.loads(report.read_text())
@@ -104,7 +105,7 @@ def compare(value, expected):
 def row(result):
     report = result.get("report")
     head = f"| {result['model']} | {'-' if result['exit'] is None else result['exit']} "
-    tail = f"| {result['seconds']:.1f} | {result['peak_mib']:.0f} | {'; '.join(result['reasons'])} |"
+    tail = f"| {result['seconds']:.1f} | {result['cpu_seconds']:.1f} | {result['peak_mib']:.0f} | {'; '.join(result['reasons'])} |"
     if not report or not report.get("hexes"):
         return head + "| | | | | | | | " + tail
     verdict = report["verdict"]
@@ -119,8 +120,8 @@ def row(result):
             f"{components} / {genus} | {report['best_round']}/{len(report['rounds']) - 1} " + tail)
 
 
-HEADER = """| model | exit | hexes | min SJ | avg SJ | max % | mean % | features % | boundary components / genus | round | s | MiB | reason |
-|---|--:|--:|--:|--:|--:|--:|--:|---|---|--:|--:|---|"""
+HEADER = """| model | exit | hexes | min SJ | avg SJ | max % | mean % | features % | boundary components / genus | round | s | CPU s | MiB | reason |
+|---|--:|--:|--:|--:|--:|--:|--:|---|---|--:|--:|--:|---|"""
 
 
 def summary(results):
@@ -148,7 +149,7 @@ def write_table(results, args):
 
 Made by `{shown}`, {args.jobs} run(s) at a time, on {platform.machine()} with {os.cpu_count()} cores; distances are shares of
 the bounding box's diagonal (two-way maximum and mean); numbers in brackets are the surface's where they differ; "round" is the
-best refinement of those made.
+best refinement of those made; "CPU s" counts all threads.
 
 {summary(results)}
 

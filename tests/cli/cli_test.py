@@ -44,7 +44,7 @@ class CliTest(unittest.TestCase):
 class Usage(CliTest):
     def test_help_lists_the_commands_and_exits_with_0(self):
         text = self.run_binary("--help").stdout
-        for command in ("mesh", "grid", "complete", "dual", "fit", "check", "convert", "picture"):
+        for command in ("mesh", "grid", "complete", "dual", "fit", "improve", "check", "convert", "picture"):
             self.assertRegex(text, rf"\n  {command} ")
             page = self.run_binary(command, "--help").stdout
             self.assertIn(f"hexwright {command}", page)
@@ -196,6 +196,13 @@ class Stages(CliTest):
         self.run_binary("convert", self.path / "g.htg", self.path / "g2.cells")
         leaves = lambda n: sorted(l for l in (self.path / n).read_text().splitlines() if not l.startswith("#"))
         self.assertEqual(leaves("g.cells"), leaves("g2.cells"))
+
+    def test_improve_never_lowers_the_minimum(self):
+        hexes = self.path / "h.mesh"
+        self.run_binary("mesh", self.cube, "-o", hexes, *COARSE)
+        text = self.run_binary("improve", hexes, "-o", self.path / "i.mesh").stdout
+        before, after = map(float, re.search(r"min (-?[\d.]+) -> (-?[\d.]+)", text).groups())
+        self.assertGreaterEqual(after, before)
 
 
 class Check(CliTest):
