@@ -6,7 +6,7 @@
 #include "hexwright/fit/fit.h"
 
 #include <algorithm>
-#include <atomic>
+#include <optional>
 
 #include "hexwright/base/assert.h"
 #include "hexwright/base/parallel.h"
@@ -15,6 +15,7 @@
 #include "fit/feature_layers.h"
 #include "fit/finish.h"
 #include "fit/judge_curves.h"
+#include "fit/keep_side.h"
 #include "fit/pad_boundary.h"
 #include "fit/pass_clock.h"
 #include "fit/selective_padding.h"
@@ -78,6 +79,14 @@ struct Attempt {
   CurveVerdicts verdicts;
 };
 
+void require_consistent(const FitOptions& options) {
+  if (!options.do_carve && options.carve.side != Side::Inside) {
+    throw Error(ErrorCode::BadArgument,
+                "only the inside of an object can be fitted without carving; set side to Inside or "
+                "let the stage carve");
+  }
+}
+
 class Fitter {
  public:
   Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
@@ -89,11 +98,11 @@ class Fitter {
 
   FitResult run(const HexMesh& background) {
     clock_.run("check input", 0.0, [&] { require_valid(background); });
-    HexMesh kept;
+    std::optional<FitState> kept;
     clock_.run("carve", 0.02, [&] { kept = keep_hexes(background); });
-    report_.num_hexes_carved = kept.num_hexes();
-    if (kept.num_hexes() == 0) return {{}, std::move(report_)};
-    const FitState carved(std::move(kept));
+    const FitState& carved = *kept;
+    report_.num_hexes_carved = carved.mesh.num_hexes();
+    if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_)};
     FitState scaffold = carved;
     clock_.run("pad", 0.2, [&] { pad_boundary(scaffold); });
     clock_.run("fit1", 0.25, [&] { fit_smooth(scaffold, false); });
@@ -106,10 +115,10 @@ class Fitter {
   }
 
  private:
-  HexMesh keep_hexes(const HexMesh& background) {
-    if (!options_.do_carve) return background;
+  FitState keep_hexes(const HexMesh& background) {
+    if (!options_.do_carve) return FitState(background);
     report_.carve = carve(background, surface_, options_.carve, context_);
-    return extract_hexes(background, report_.carve.is_kept);
+    return keep_side(background, report_.carve.is_kept, options_.carve.side);
   }
 
   FitTarget target() const { return {tree_, &features_}; }
@@ -160,7 +169,10 @@ class Fitter {
     return a;
   }
 
-  bool is_selective() const { return options_.padding == Padding::Selective && !features_.empty(); }
+  bool is_selective() const {
+    return options_.padding == Padding::Selective && !features_.empty() &&
+           options_.carve.side == Side::Inside;
+  }
 
   void map_and_pad(const FitState& carved, const FeatureMapOptions& map_options, Attempt& a) {
     AttachedFeatures attached = attach_features(a.state, tree_, features_, map_options);
@@ -177,6 +189,8 @@ class Fitter {
   void fit_curves(Attempt& a) {
     const std::vector<double> weights = geometric_weights(3, 300, 5);
     run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
+    if (a.state.side == Side::Both)
+      return;  // a pillow would need its counterpart on the other side
     PillowOptions pillow;
     pillow.whole_regions = !is_selective();
     if (pillow_squeezed_quads(a.state, a.marks, pillow).num_pillows == 0) return;
@@ -200,6 +214,9 @@ class Fitter {
     report_.misses = find_misses(state);
     report_.unproven = find_unproven(state.mesh);
     state.mesh.labels = make_labels(state, result.marks);
+    if (state.side ==
+        Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
+      for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);
     remove_unused_verts(state.mesh);
     return {std::move(state.mesh), std::move(report_)};
   }
@@ -217,6 +234,7 @@ class Fitter {
 
 FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
               const Context& context) {
+  require_consistent(options);
   return Fitter(surface, options, context).run(background);
 }
 

@@ -36,21 +36,44 @@ void FitState::resize_arrays() {
   is_dirty.resize(n, 1);
 }
 
+std::vector<char> FitState::inside_hexes() const {
+  std::vector<char> inside(mesh.num_hexes(), side == Side::Inside);
+  if (side == Side::Both)
+    for (HexId h : mesh.hexes.ids()) inside[h.index()] = mesh.region[h] == kInsideRegion;
+  return inside;
+}
+
+void FitState::find_quads() {
+  quad_face.clear();
+  quads.clear();
+  const auto is_held = [&](VertId v) { return move[v] != MoveIn::Space; };
+  const auto add = [&](const HexFace& face) {
+    auto quad = face_verts(mesh, face);
+    if (std::all_of(quad.begin(), quad.end(), is_held)) return;  // of the fixed outer box
+    if (side == Side::Outside) std::swap(quad[1], quad[3]);
+    quad_face.push_back(face);
+    quads.push_back(quad);
+  };
+  if (side != Side::Both) {
+    for (const HexFace& face : neighbors.boundary) add(face);
+    return;
+  }
+  for (HexId h : mesh.hexes.ids()) {
+    if (mesh.region[h] != kInsideRegion) continue;
+    for (int lf = 0; lf < 6; ++lf) {
+      const HexId other = neighbors.neighbor[h][static_cast<std::size_t>(lf)];
+      if (!other.is_valid() || mesh.region[other] != kInsideRegion) add({h, lf});
+    }
+  }
+}
+
 void FitState::rebuild() {
   resize_arrays();
   vert_to_hex = VertToHex(mesh);
   stars = VertexStars(mesh, vert_to_hex);
   colors = VertexColors(mesh, vert_to_hex);
   neighbors = compute_hex_neighbors(mesh);
-  quad_face.clear();
-  quads.clear();
-  for (const HexFace& face : neighbors.boundary) {
-    const auto quad = face_verts(mesh, face);
-    const auto is_held = [&](VertId v) { return move[v] != MoveIn::Space; };
-    if (std::all_of(quad.begin(), quad.end(), is_held)) continue;  // of the fixed outer box
-    quad_face.push_back(face);
-    quads.push_back(quad);
-  }
+  find_quads();
   for (const auto& quad : quads)
     for (VertId v : quad)
       if (kind[v] == VertKind::Interior) kind[v] = VertKind::Surface;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/fit/carve.h"
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_adjacency.h"
@@ -19,7 +20,10 @@ enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
 struct FitState {
   explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) { rebuild(); }
 
+  static constexpr std::int32_t kInsideRegion = 1, kOutsideRegion = 2;  ///< tags with Side::Both
+
   HexMesh mesh;
+  Side side = Side::Inside;  ///< of the surface that the hexes are on
 
   // Where each vertex belongs (set by the mapping; `rebuild` makes new boundary vertices Surface).
   IdVector<VertId, VertKind> kind;
@@ -41,10 +45,10 @@ struct FitState {
   VertexStars stars;
   VertexColors colors;
   HexNeighbors neighbors;
-  /// Quads to be fitted to the surface, outward of the kept side; quad q belongs to quad_face[q].
+  /// Quads to be fitted to the surface, counter-clockwise seen from the object's outside; quad q is
+  /// quad_face[q]. With Side::Both they are the faces of region kInsideRegion towards the other.
   std::vector<std::array<VertId, 4>> quads;
   std::vector<HexFace> quad_face;
-  bool is_reversed = false;  ///< the hexes are on the surface's outer side: quads face inwards
 
   std::size_t num_verts() const { return mesh.num_verts(); }
   bool is_boundary(VertId v) const { return kind[v] != VertKind::Interior; }
@@ -57,9 +61,14 @@ struct FitState {
   void rebuild();
   /// Recomputes `size` from the present positions.
   void update_sizes();
+  /// 1 per hex inside the object (all or none unless Side::Both).
+  std::vector<char> inside_hexes() const;
   void mark_all_dirty() { is_dirty.assign(num_verts(), 1); }
   /// Grows the per-vertex arrays to the number of positions (called by rebuild).
   void resize_arrays();
+
+ private:
+  void find_quads();
 };
 
 /// The surface and its features as the passes see them.

@@ -9,15 +9,25 @@
 
 namespace hexwright::fitting {
 
-void pad_boundary(FitState& state) {
-  const std::vector<char> all(state.mesh.num_hexes(), 1);
+namespace {
+
+// The sheet along the faces between the hexes `takes_copy` and what is beyond them.
+Sheet make_sheet(const FitState& state, const std::vector<char>& takes_copy) {
   SetCheck check(state.mesh, state.vert_to_hex, state.neighbors, true);
   Sheet sheet;
-  sheet.quads = state.quads;
-  for (const HexFace& face : state.quad_face) sheet.behind.push_back(face.hex);
+  for (HexFace face : state.quad_face) {
+    if (!takes_copy[face.hex.index()]) {  // the same face seen from its other hex
+      const HexId other = state.neighbors.neighbor[face.hex][static_cast<std::size_t>(face.lf)];
+      int lf = 0;
+      while (state.neighbors.neighbor[other][static_cast<std::size_t>(lf)] != face.hex) ++lf;
+      face = {other, lf};
+    }
+    sheet.quads.push_back(face_verts(state.mesh, face));
+    sheet.behind.push_back(face.hex);
+  }
   sheet.verts = sheet_verts(sheet.quads);
   for (VertId v : sheet.verts) {
-    const VisibleDirection visible = check.direction(v, all);
+    const VisibleDirection visible = check.direction(v, takes_copy);
     if (!(visible.cosine > 0)) {
       throw Error(ErrorCode::BadGeometry,
                   "no direction sees all boundary faces around the vertex; thicken the mesh there "
@@ -26,10 +36,26 @@ void pad_boundary(FitState& state) {
     }
     sheet.directions.push_back(visible.direction);
   }
-  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, sheet, {}, 1e-7);
+  return sheet;
+}
+
+void pad_hexes(FitState& state, const std::vector<char>& takes_copy) {
+  const Sheet sheet = make_sheet(state, takes_copy);
+  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, sheet, takes_copy, 1e-7);
   if (copies.empty() && !sheet.quads.empty())
     throw Error(ErrorCode::BadGeometry, "the boundary layer cannot be made thin enough");
   state.rebuild();
+}
+
+}  // namespace
+
+void pad_boundary(FitState& state) {
+  if (state.side != Side::Both)
+    return pad_hexes(state, std::vector<char>(state.mesh.num_hexes(), 1));
+  pad_hexes(state, state.inside_hexes());
+  std::vector<char> outside = state.inside_hexes();
+  for (char& x : outside) x = !x;
+  pad_hexes(state, outside);
 }
 
 }  // namespace hexwright::fitting

@@ -1,13 +1,13 @@
-// One layer of hexes under the whole boundary.
+// One layer of hexes along all quads that are to be fitted.
 #pragma once
 
 #include "fit/fit_state.h"
 
 namespace hexwright::fitting {
 
-/// The boundary's vertices stay; the hexes behind it take copies of them. Faces that lie in the
-/// fixed outer box get no layer. Throws Error{BadGeometry} when no layer, however thin, has
-/// positive corner determinants everywhere (cannot happen on what carve keeps). Rebuilds the state.
+/// The vertices of the quads to be fitted stay; the hexes behind them (on both sides with
+/// Side::Both) take copies. Throws Error{BadGeometry} when no layer, however thin, has positive
+/// corner determinants everywhere (cannot happen on what carve keeps). Rebuilds the state.
 void pad_boundary(FitState& state);
 
 }  // namespace hexwright::fitting

@@ -73,7 +73,7 @@ class SelectivePadder {
   /// Groups with a need, small ones first.
   std::vector<GroupId> choose_groups() {
     auto convex_share = compute_convex_shares(target_.tree.surface(), *target_.features);
-    if (start_.state.is_reversed)
+    if (start_.state.side == Side::Outside)
       for (double& share : convex_share) share = 1 - share;
     const MarkedGraph marked(start_.state, start_.marks);
     groups_ = find_padding_groups(start_.state, start_.marks, marked, convex_share);

@@ -12,9 +12,8 @@ namespace {
 IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state) {
   IdVector<VertId, Vec3> normals(state.num_verts());
   const auto& p = state.mesh.positions;
-  const double side = state.is_reversed ? -1 : 1;
   for (const auto& q : state.quads) {
-    const Vec3 n = side * normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
+    const Vec3 n = normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
     for (VertId v : q) normals[v] += n;
   }
   for (Vec3& n : normals) n = normalized(n);

@@ -12,7 +12,11 @@
 
 namespace hexwright {
 
-enum class Side { Inside, Outside, Both };
+enum class Side {
+  Inside,
+  Outside,  ///< the background around the object; its outer boundary stays in its planes
+  Both      ///< all of the background, conforming, with region tags 1 (inside) and 2 (outside)
+};
 
 struct CarveOptions {
   Side side = Side::Inside;
@@ -30,7 +34,9 @@ struct CarveResult {
       0;  ///< boundary vertices the repair could not mend (0 in a usable result)
   std::size_t num_components = 0;
   long euler_characteristic = 0;  ///< of the kept set's boundary
-  std::vector<Vec3> lost;         ///< places where a part or gap thinner than the grid was lost
+  /// Surface points in background hexes where a part or gap thinner than the grid was lost: one per
+  /// hex, in order of the hexes.
+  std::vector<Vec3> lost;
 };
 
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
