@@ -1,11 +1,13 @@
 // Based on: Barill et al., "Fast Winding Numbers for Soups and Clouds", 2018, for the sign.
 // Differs: where the surface is closed and consistently oriented the winding number is constant off
-// the surface, so hexes far from it inherit their sign from a neighbour.
+// the surface, so points that the surface cannot separate share one evaluation.
 #include "fit/carve_classify.h"
 
 #include <algorithm>
 
 #include "hexwright/base/parallel.h"
+
+#include "quality/disjoint_sets.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -49,9 +51,9 @@ struct Classifier {
   const HexNeighbors& neighbors;
   const SurfaceTree& surface;
   IdVector<HexId, double> radius, centre_distance;
-  IdVector<HexId, char> touches;    // the surface is within kNearRadii of the centre
-  IdVector<HexId, char> is_inside;  // of the centre
-  IdVector<VertId, double> vert_distance;
+  IdVector<HexId, char> touches;           // the surface is within kNearRadii of the centre
+  IdVector<HexId, char> is_inside;         // of the centre
+  IdVector<VertId, double> vert_distance;  // 0 where not needed; negative inside in the end
   HexFilling result;
 
   Vec3 centre(HexId h) const {
@@ -81,42 +83,7 @@ struct Classifier {
         64);
   }
 
-  // The segment between two centres of far face neighbours does not meet the surface, so that the
-  // far hexes of one face-connected component share the sign of their first member.
-  void sign_far_hexes() {
-    IdVector<HexId, char> seen(mesh.num_hexes(), 0);
-    std::vector<HexId> stack;
-    for (HexId seed : mesh.hexes.ids()) {
-      if (touches[seed] || seen[seed]) continue;
-      const char sign = surface.is_inside(centre(seed));
-      seen[seed] = 1;
-      stack.push_back(seed);
-      while (!stack.empty()) {
-        const HexId h = stack.back();
-        stack.pop_back();
-        is_inside[h] = sign;
-        for (HexId other : neighbors.neighbor[h]) {
-          if (!other.is_valid() || touches[other] || seen[other]) continue;
-          seen[other] = 1;
-          stack.push_back(other);
-        }
-      }
-    }
-  }
-
-  void sign_centres() {
-    const bool inherit = is_oriented_cycle(surface.surface());
-    if (inherit) sign_far_hexes();
-    parallel_for(
-        mesh.num_hexes(),
-        [&](std::size_t i) {
-          const HexId h(i);
-          if (touches[h] || !inherit) is_inside[h] = surface.is_inside(centre(h));
-        },
-        64);
-  }
-
-  // Signed distance of the vertices of hexes that the surface touches, cut off where it no longer
+  // Unsigned distance of the vertices of hexes that the surface touches, cut off where it no longer
   // matters.
   void measure_verts() {
     parallel_for(
@@ -130,10 +97,50 @@ struct Classifier {
           ClosestFilter filter;
           filter.max_distance = reach;
           const auto found = surface.closest(mesh.positions[v], filter);
-          const double distance = found ? std::sqrt(found->distance_sq) : reach;
-          vert_distance[v] = surface.is_inside(mesh.positions[v]) ? -distance : distance;
+          vert_distance[v] = found ? std::sqrt(found->distance_sq) : reach;
         },
         64);
+  }
+
+  // Points are the hexes' centres, then the vertices. Two points share their sign when the surface
+  // is too far from both to cross the segment between them.
+  void unite_same_side(DisjointSets& sides) const {
+    for (HexId h : mesh.hexes.ids()) {
+      const Vec3 c = centre(h);
+      for (VertId v : mesh.hexes[h]) {
+        const double reach = centre_distance[h] + vert_distance[v];
+        if (vert_distance[v] > 0 && reach > distance(c, mesh.positions[v]) * (1 + 1e-9))
+          sides.unite(h.index(), mesh.num_hexes() + v.index());
+      }
+      if (touches[h]) continue;
+      for (HexId other : neighbors.neighbor[h])
+        if (other.is_valid() && !touches[other]) sides.unite(h.index(), other.index());
+    }
+  }
+
+  // One winding number for each set of points known to be on one side. Where the surface is open
+  // or badly oriented the number changes off the surface, too: then every point has its own.
+  void sign_points() {
+    const std::size_t num_hexes = mesh.num_hexes();
+    DisjointSets sides(num_hexes + mesh.num_verts());
+    if (is_oriented_cycle(surface.surface())) unite_same_side(sides);
+    std::vector<std::size_t> side(num_hexes + mesh.num_verts());
+    for (std::size_t i = 0; i < side.size(); ++i) side[i] = sides.find(i);
+    std::vector<char> inside(side.size(), 0);
+    parallel_for(
+        side.size(),
+        [&](std::size_t i) {
+          if (side[i] != i) return;
+          if (i < num_hexes) {
+            inside[i] = surface.is_inside(centre(HexId(i)));
+          } else if (vert_distance[VertId(i - num_hexes)] > 0) {
+            inside[i] = surface.is_inside(mesh.positions[VertId(i - num_hexes)]);
+          }
+        },
+        64);
+    for (HexId h : mesh.hexes.ids()) is_inside[h] = inside[side[h.index()]];
+    for (VertId v : mesh.positions.ids())
+      if (inside[side[num_hexes + v.index()]]) vert_distance[v] = -vert_distance[v];
   }
 
   void fill() {
@@ -167,8 +174,8 @@ HexFilling classify_hexes(const HexMesh& mesh, const VertToHex& vert_to_hex,
   c.result.nearest.resize(n);
   c.result.edge.assign(n, 0);
   c.measure_centres();
-  c.sign_centres();
   c.measure_verts();
+  c.sign_points();
   c.fill();
   return std::move(c.result);
 }

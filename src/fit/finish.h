@@ -32,4 +32,8 @@ void polish_worst(FitState& state, const FitTarget& target, const PolishOptions&
 /// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.
 void snap_to_targets(FitState& state, const FitTarget& target, double least_quality);
 
+/// Works on hexes whose Jacobian is not proven positive everywhere inside, letting go of the
+/// surface around them more and more; returns those that remain.
+std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context);
+
 }  // namespace hexwright::fitting

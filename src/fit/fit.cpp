@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "hexwright/base/assert.h"
-#include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/feature_layers.h"
@@ -57,20 +56,6 @@ std::vector<Miss> find_misses(const FitState& state) {
   return misses;
 }
 
-std::vector<HexId> find_unproven(const HexMesh& mesh) {
-  std::vector<char> is_proven(mesh.num_hexes());
-  parallel_for(
-      mesh.num_hexes(),
-      [&](std::size_t h) {
-        is_proven[h] = check_positivity(mesh.corners(HexId(h))) == Positivity::Positive;
-      },
-      256);
-  std::vector<HexId> unproven;
-  for (std::size_t h = 0; h < is_proven.size(); ++h)
-    if (!is_proven[h]) unproven.push_back(HexId(h));
-  return unproven;
-}
-
 // One mapping of the features with everything that follows from it.
 struct Attempt {
   FitState state;
@@ -111,6 +96,8 @@ class Fitter {
     clock_.run("polish", 0.9, [&] { polish_worst(result.state, target(), {}, context_); });
     clock_.run("snap", 0.95,
                [&] { snap_to_targets(result.state, target(), options_.snap_quality); });
+    clock_.run("prove", 0.97,
+               [&] { report_.unproven = mend_unproven(result.state, target(), context_); });
     return conclude(std::move(result));
   }
 
@@ -212,7 +199,6 @@ class Fitter {
     report_features(state, features_, result.mapping, report_);
     report_.num_hexes_padded = state.mesh.num_hexes();
     report_.misses = find_misses(state);
-    report_.unproven = find_unproven(state.mesh);
     state.mesh.labels = make_labels(state, result.marks);
     if (state.side ==
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object

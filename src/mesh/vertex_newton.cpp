@@ -314,8 +314,10 @@ HEXWRIGHT_LANE_CLONES double bound_step(const HexLanes* lanes, std::size_t num_h
   const Lanes3 d = splat(step);
   for (std::size_t i = 0; i < num_hexes; ++i) {
     const Lanes change = dot(lanes[i].normal, d);
+    const Lanes room = splat(0.9) * lanes[i].det;
+    if (!(least(room + splat(limit) * change) < 0)) continue;
     for (int k = 0; k < 4; ++k)
-      if (change[k] < 0) limit = std::min(limit, -0.9 * lanes[i].det[k] / change[k]);
+      if (change[k] < 0) limit = std::min(limit, -room[k] / change[k]);
   }
   return limit;
 }

@@ -88,6 +88,74 @@ TEST(Fit, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.hexes, two.mesh.hexes);
 }
 
+// Boundary quads of the mesh that lie in the outer planes of the background.
+std::size_t count_box_quads(const HexMesh& mesh, const Box3& box) {
+  std::size_t count = 0;
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary) {
+    const auto quad = face_verts(mesh, face);
+    for (int axis = 0; axis < 3; ++axis)
+      for (double plane : {box.lo[axis], box.hi[axis]}) {
+        const auto lies_in = [&](VertId v) {
+          return std::abs(mesh.positions[v][axis] - plane) < 1e-12 * box.diagonal();
+        };
+        count += std::all_of(quad.begin(), quad.end(), lies_in);
+      }
+  }
+  return count;
+}
+
+TEST(Fit, MeshesTheOutsideInAnUnchangedBox) {
+  for (const TriMesh& surface :
+       {test::welded(test::unit_sphere_surface(4)), test::unit_cube_surface()}) {
+    const SurfaceTree tree(surface);
+    const HexMesh grid = test::grid_around(tree.box(), tree.box().diagonal() / 14);
+    FitOptions options;
+    options.carve.side = Side::Outside;
+    const FitResult result = fit(grid, tree, options, {});
+    EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.19);
+    EXPECT_TRUE(check_topology(result.mesh).is_valid());
+    const Box3 box = bounding_box(grid);
+    EXPECT_EQ(count_box_quads(result.mesh, box), count_box_quads(grid, box));
+    const Box3 after = bounding_box(result.mesh);
+    EXPECT_LT(distance(after.lo, box.lo) + distance(after.hi, box.hi), 1e-12 * box.diagonal());
+    for (const HexFace& face : compute_hex_neighbors(result.mesh).boundary)
+      for (VertId v : face_verts(result.mesh, face)) {
+        const Vec3& p = result.mesh.positions[v];
+        const Vec3 to_box = min(p - box.lo, box.hi - p);
+        const double gap = std::min({to_box.x, to_box.y, to_box.z});
+        EXPECT_LT(std::min(std::abs(gap), tree.distance(p)), 2e-3 * box.diagonal());
+      }
+  }
+}
+
+TEST(Fit, MeshesBothSidesWithAConformingInterface) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
+  const HexMesh grid = test::grid_around(sphere.box(), 0.25);
+  FitOptions options;
+  options.carve.side = Side::Both;
+  const HexMesh mesh = fit(grid, sphere, options, {}).mesh;
+  EXPECT_TRUE(check_topology(mesh).is_valid());
+  EXPECT_GT(summarize_quality(mesh).min_scaled_jacobian, 0.2);
+  const HexNeighbors neighbors = compute_hex_neighbors(mesh);
+  const Box3 box = bounding_box(grid);
+  EXPECT_EQ(neighbors.boundary.size(), count_box_quads(mesh, box));
+  double inside = 0;
+  for (HexId h : mesh.hexes.ids())
+    if (mesh.region[h] == 1) inside += hex_volume(mesh.corners(h));
+  EXPECT_NEAR(inside, 4.18879, 0.03 * 4.18879);
+  std::size_t interface_verts = 0;
+  for (HexId h : mesh.hexes.ids())
+    for (int lf = 0; lf < 6; ++lf) {
+      const HexId other = neighbors.neighbor[h][static_cast<std::size_t>(lf)];
+      if (!other.is_valid() || mesh.region[h] == mesh.region[other]) continue;
+      for (VertId v : face_verts(mesh, {h, lf})) {
+        EXPECT_LT(sphere.distance(mesh.positions[v]), 2e-3);
+        ++interface_verts;
+      }
+    }
+  EXPECT_GT(interface_verts, 500u);
+}
+
 TEST(Fit, NamesTheInvertedHexOfABadBackground) {
   HexMesh grid = test::box_hex_mesh(3, 3, 3);
   std::swap(grid.hexes[HexId(5)][0], grid.hexes[HexId(5)][1]);
