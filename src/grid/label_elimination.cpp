@@ -20,7 +20,7 @@ bool dominates(const LabelGraph& graph, std::size_t node, Parity better, Parity 
   return true;
 }
 
-bool prune_node(LabelGraph& graph, std::size_t node) {
+bool prune_node(LabelGraph& graph, std::uint32_t node, std::vector<PrunedLabel>& pruned) {
   LabelMask& allowed = graph.allowed[node];
   const LabelMask before = allowed;
   for (Parity label = 0; label < kNumParities; ++label) {
@@ -32,6 +32,8 @@ bool prune_node(LabelGraph& graph, std::size_t node) {
     for (Parity better = 0; better < kNumParities; ++better) {
       if (better == label || !(allowed >> better & 1)) continue;
       if (dominates(graph, node, better, label)) {
+        pruned.push_back(
+            {node, static_cast<std::uint8_t>(label), static_cast<std::uint8_t>(better)});
         allowed = static_cast<LabelMask>(allowed & ~(1 << label));
         break;
       }
@@ -232,20 +234,22 @@ class Elimination {
 
 }  // namespace
 
-void prune_labels(LabelGraph& graph) {
+std::vector<PrunedLabel> prune_labels(LabelGraph& graph) {
+  std::vector<PrunedLabel> pruned;
   std::vector<std::uint32_t> queue(graph.num_nodes());
   std::vector<char> is_queued(graph.num_nodes(), 1);
   for (std::uint32_t u = 0; u < graph.num_nodes(); ++u) queue[u] = u;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const std::uint32_t u = queue[i];
     is_queued[u] = 0;
-    if (!prune_node(graph, u)) continue;
+    if (!prune_node(graph, u, pruned)) continue;
     for (const LabelEdge& e : graph.edges[u])
       if (!is_queued[e.other]) {
         is_queued[e.other] = 1;
         queue.push_back(e.other);
       }
   }
+  return pruned;
 }
 
 std::optional<Labelling> solve_by_elimination(const LabelGraph& graph, std::size_t table_entries) {

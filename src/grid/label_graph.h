@@ -39,8 +39,15 @@ struct Labelling {
   std::int64_t cost = 0;
 };
 
+/// A label that was dropped because another of the same node can always take its place.
+struct PrunedLabel {
+  std::uint32_t node = 0;
+  std::uint8_t label = 0, better = 0;
+};
+
 /// Removes labels that some other label of the same node makes useless; an optimal labelling stays.
-void prune_labels(LabelGraph& graph);
+/// Returns them in order of removal: replacing them in that order keeps any labelling feasible.
+std::vector<PrunedLabel> prune_labels(LabelGraph& graph);
 
 /// Exact, by eliminating one node after the other; absent when a table would exceed the limit.
 std::optional<Labelling> solve_by_elimination(const LabelGraph& graph, std::size_t table_entries);
@@ -51,10 +58,15 @@ struct SearchResult {
   std::int64_t lower_bound = 0;
 };
 
-/// Branch and bound; past the node limit the best labelling found and a bound.
-SearchResult solve_by_search(const LabelGraph& graph, std::size_t max_nodes);
+/// Branch and bound from a feasible start; past the node limit the best labelling found and a
+/// bound.
+SearchResult solve_by_search(const LabelGraph& graph, const Labelling& start,
+                             std::size_t max_nodes);
 
-/// The best single label for all nodes, improved node by node. Ignores `allowed`.
+/// For groups of any size: a labelling improved part by part, and the bound of the parts alone.
+SearchResult solve_by_parts(const LabelGraph& graph, const Labelling& start);
+
+/// The best single label for all nodes, improved node by node. All labels must be allowed.
 Labelling make_start(const LabelGraph& graph);
 
 }  // namespace hexwright

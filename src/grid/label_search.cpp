@@ -9,17 +9,17 @@ namespace {
 
 class BranchAndBound {
  public:
-  BranchAndBound(const LabelGraph& graph, std::size_t max_nodes)
+  BranchAndBound(const LabelGraph& graph, const Labelling& start, std::size_t max_nodes)
       : graph_(graph),
         max_nodes_(max_nodes),
         order_(breadth_first_order()),
         rest_bound_(order_.size() + 1, 0),
         labels_(graph.num_nodes(), 0),
-        blocked_(graph.num_nodes()) {
+        blocked_(graph.num_nodes()),
+        best_(start) {
     for (std::size_t i = order_.size(); i-- > 0;)
       rest_bound_[i] = rest_bound_[i + 1] + graph_.least_cost(order_[i]);
     for (auto& counts : blocked_) counts.fill(0);
-    best_ = make_start(graph);
   }
 
   SearchResult run() {
@@ -146,8 +146,9 @@ Labelling make_start(const LabelGraph& graph) {
   return out;
 }
 
-SearchResult solve_by_search(const LabelGraph& graph, std::size_t max_nodes) {
-  return BranchAndBound(graph, max_nodes).run();
+SearchResult solve_by_search(const LabelGraph& graph, const Labelling& start,
+                             std::size_t max_nodes) {
+  return BranchAndBound(graph, start, max_nodes).run();
 }
 
 }  // namespace hexwright

@@ -87,16 +87,37 @@ void drop_idle_edges(LabelGraph& graph) {
     });
 }
 
-void solve_group(const LabelGraph& graph, const std::vector<std::uint32_t>& group,
-                 const LabelLimits& limits, LabelSolution& out) {
-  SearchResult result;
-  if (auto exact = solve_by_elimination(graph, limits.table_entries)) {
-    result.best = std::move(*exact);
-    result.is_optimal = true;
-    result.lower_bound = result.best.cost;
-  } else {
-    result = solve_by_search(graph, limits.search_nodes);
+/// A feasible labelling with allowed labels only, to begin a search with.
+Labelling feasible_start(const LabelGraph& unpruned, const std::vector<PrunedLabel>& pruned) {
+  Labelling out = make_start(unpruned);
+  for (const PrunedLabel& step : pruned)
+    if (out.labels[step.node] == step.label) out.labels[step.node] = step.better;
+  return out;
+}
+
+Labelling restricted(const Labelling& all, const LabelGraph& graph,
+                     const std::vector<std::uint32_t>& group) {
+  Labelling out;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    out.labels.push_back(all.labels[group[i]]);
+    out.cost += graph.costs[i][out.labels.back()];
   }
+  return out;
+}
+
+/// By branch and bound up to some tens of nodes, where it has a chance, else part by part.
+SearchResult search_group(const LabelGraph& graph, const Labelling& start, std::size_t max_nodes) {
+  constexpr std::size_t kLargestForSearch = 100;
+  if (graph.num_nodes() > kLargestForSearch) return solve_by_parts(graph, start);
+  SearchResult result = solve_by_search(graph, start, max_nodes);
+  if (result.is_optimal) return result;
+  SearchResult parts = solve_by_parts(graph, result.best);
+  parts.lower_bound = std::max(parts.lower_bound, result.lower_bound);
+  return parts;
+}
+
+void take_group(const SearchResult& result, const std::vector<std::uint32_t>& group,
+                LabelSolution& out) {
   for (std::size_t i = 0; i < group.size(); ++i) out.labels[group[i]] = result.best.labels[i];
   out.lower_bound += result.lower_bound >> kTieBits;
   out.is_optimal = out.is_optimal && result.is_optimal;
@@ -112,7 +133,7 @@ LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
   LabelGraph graph = make_graph(costs, conflicts);
   for (const auto& group : find_groups(graph))
     out.largest_group = std::max(out.largest_group, group.size());
-  prune_labels(graph);
+  const std::vector<PrunedLabel> pruned = prune_labels(graph);
   drop_idle_edges(graph);
 
   std::vector<std::uint32_t> local(costs.size());
@@ -124,8 +145,17 @@ LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
     out.labels[u] = cheapest_label(remaining);
     out.lower_bound += costs[u][out.labels[u]];
   }
-  for (const auto& group : find_groups(graph))
-    solve_group(subgraph(graph, group, local), group, limits, out);
+  std::optional<Labelling> start;  // rarely needed
+  for (const auto& group : find_groups(graph)) {
+    const LabelGraph alone = subgraph(graph, group, local);
+    if (auto exact = solve_by_elimination(alone, limits.table_entries)) {
+      take_group({*exact, true, exact->cost}, group, out);
+      continue;
+    }
+    if (!start) start = feasible_start(make_graph(costs, conflicts), pruned);
+    take_group(search_group(alone, restricted(*start, alone, group), limits.search_nodes), group,
+               out);
+  }
   for (std::size_t u = 0; u < costs.size(); ++u) out.cost += costs[u][out.labels[u]];
   return out;
 }

@@ -17,8 +17,8 @@ namespace hexwright {
 using LabelCosts = std::array<std::int64_t, kNumParities>;
 
 struct LabelLimits {
-  std::size_t table_entries = std::size_t{1} << 18;  ///< largest elimination table
-  std::size_t search_nodes = 300'000;                ///< branch-and-bound nodes per group
+  std::size_t table_entries = std::size_t{1} << 16;  ///< largest elimination table
+  std::size_t search_nodes = 200'000;                ///< branch-and-bound nodes per group
 };
 
 struct LabelSolution {

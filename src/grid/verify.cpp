@@ -78,10 +78,15 @@ Issue incomplete_block(const BrickSet& split, const Clusters& clusters, std::uin
       name_of("node", missing.value_or(LatticeCoord{}), depth, domain))};
 }
 
-Issue crossed_blocks(const BrickSet& split, const Clusters& clusters,
-                     const std::vector<Conflict>& conflicts,
-                     const std::vector<std::uint8_t>& labels, int depth,
-                     const LatticeDomain& domain) {
+const Conflict* find_crossed(const std::vector<Conflict>& conflicts,
+                             const std::vector<std::uint8_t>& labels) {
+  for (const Conflict& c : conflicts)
+    if (c.forbidden >> (8 * labels[c.first] + labels[c.second]) & 1) return &c;
+  return nullptr;
+}
+
+Issue crossed_blocks(const BrickSet& split, const Clusters& clusters, const Conflict& conflict,
+                     int depth, const LatticeDomain& domain) {
   const auto first_node = [&](std::uint32_t cluster) {
     const auto piece = std::find_if(clusters.pieces.begin(), clusters.pieces.end(),
                                     [&](const Piece& p) { return p.cluster == cluster; });
@@ -89,11 +94,8 @@ Issue crossed_blocks(const BrickSet& split, const Clusters& clusters,
                    node_of_bit(split.bricks()[piece->brick].key, std::countr_zero(piece->bits)),
                    depth, domain);
   };
-  for (const Conflict& c : conflicts)
-    if (c.forbidden >> (8 * labels[c.first] + labels[c.second]) & 1)
-      return {fmt::format("the blocks around {} and {} are closer than four without being aligned",
-                          first_node(c.first), first_node(c.second))};
-  return {fmt::format("the blocks of level {} are closer than four without being aligned", depth)};
+  return {fmt::format("the blocks around {} and {} are closer than four without being aligned",
+                      first_node(conflict.first), first_node(conflict.second))};
 }
 
 std::optional<Issue> find_unpaired_depth(const BrickSet& split, int depth,
@@ -110,14 +112,15 @@ std::optional<Issue> find_unpaired_depth(const BrickSet& split, int depth,
     for (std::int64_t& c : excess[k]) c = c > 0 ? 1 : 0;
   }
   const auto conflicts = find_conflicts(split, clusters);
-  // A cost of zero means: every cluster has a parity without excess, and no two exclude each other.
-  const LabelSolution solution = solve_labels(excess, conflicts);
-  if (solution.cost == 0) return std::nullopt;
   std::vector<std::uint8_t> labels(clusters.num_clusters);
   for (std::uint32_t k = 0; k < clusters.num_clusters; ++k)
     labels[k] = static_cast<std::uint8_t>(std::find(excess[k].begin(), excess[k].end(), 0) -
                                           excess[k].begin());
-  return crossed_blocks(split, clusters, conflicts, labels, depth, domain);
+  const Conflict* crossed = find_crossed(conflicts, labels);
+  // Clusters at the domain's border may fit several parities: let the solver choose. A cost of
+  // zero means that every cluster has a parity without excess, and no two exclude each other.
+  if (!crossed || solve_labels(excess, conflicts).cost == 0) return std::nullopt;
+  return crossed_blocks(split, clusters, *crossed, depth, domain);
 }
 
 std::optional<Issue> find_unbalanced_by_two(const NestedSets& sets, const LatticeDomain& domain) {

@@ -107,6 +107,35 @@ TEST(Labelling, PastItsLimitsReportsAGap) {
   EXPECT_GT(num_open, 0);
 }
 
+TEST(Labelling, HugeGroupsGetAFeasibleLabellingAndABound) {
+  // A 6x6x6 grid of clusters, each in conflict with its neighbours along the axes.
+  std::mt19937 rng(4);
+  constexpr std::uint32_t kEdge = 6;
+  Problem problem = random_problem(rng, kEdge * kEdge * kEdge, 0);
+  for (std::uint32_t i = 0; i < problem.costs.size(); ++i)
+    for (const std::uint32_t step : {1u, kEdge, kEdge * kEdge}) {
+      if (i / step % kEdge == kEdge - 1) continue;
+      PairTable table = 0;
+      for (int p = 0; p < 8; ++p)
+        for (int q = 0; q < 8; ++q)
+          if (p != q && rng() % 4 == 0) table |= PairTable{1} << (8 * p + q);
+      problem.conflicts.push_back({i, i + step, table});
+    }
+  const LabelSolution s = solve_labels(problem.costs, problem.conflicts);
+  EXPECT_EQ(s.largest_group, problem.costs.size());
+  EXPECT_FALSE(s.is_optimal);
+  EXPECT_TRUE(is_feasible(problem, s.labels));
+  EXPECT_EQ(s.cost, cost_of(problem, s.labels));
+  EXPECT_LT(s.lower_bound, s.cost);
+  std::int64_t least_alone = 0, best_uniform = std::numeric_limits<std::int64_t>::max();
+  for (const LabelCosts& c : problem.costs) least_alone += *std::min_element(c.begin(), c.end());
+  for (std::uint8_t p = 0; p < 8; ++p)
+    best_uniform = std::min(best_uniform,
+                            cost_of(problem, std::vector<std::uint8_t>(problem.costs.size(), p)));
+  EXPECT_GT(s.lower_bound, least_alone);
+  EXPECT_LT(s.cost, best_uniform);
+}
+
 TEST(Labelling, LargestGroupCountsConnectedClusters) {
   Problem problem;
   problem.costs.resize(6);

@@ -155,6 +155,20 @@ TEST(FindUnpaired, FollowsTheRuleForTwoBlocks) {
       }
 }
 
+TEST(FindUnpaired, AcceptsGroupsTooLargeForExactSearch) {
+  // Single split nodes scattered so densely that nearly all of them depend on each other.
+  std::mt19937 rng(3);
+  PlainSets sets = plain_split_sets(grid_with_blocks({}, 5));
+  sets.resize(6);
+  for (int k = 0; k < 400; ++k)
+    sets[5].insert({std::int32_t(rng() % 32), std::int32_t(rng() % 32), std::int32_t(rng() % 32)});
+  const Grid grid = test::grid_of_plain_sets({{0, 0, 0}}, sets);
+  const CompleteResult result = complete(grid, {Balance::Weak, Pairing::Blocks, true}, {});
+  EXPECT_GT(result.report.largest_group, 50u);
+  const auto issue = find_unpaired(result.grid);
+  EXPECT_FALSE(issue) << issue->message;
+}
+
 TEST(FindUnpaired, NamesTheMissingNode) {
   PlainSets sets = plain_split_sets(grid_with_blocks({{3, 3, 3}}, 3));
   sets[3].erase({3, 3, 3});
