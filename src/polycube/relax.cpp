@@ -13,6 +13,7 @@
 #include "fit/fit_state.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
+#include "fit/untangle.h"
 
 namespace hexwright::polycube {
 namespace {
@@ -22,8 +23,7 @@ using fitting::FitTarget;
 using fitting::VertKind;
 
 constexpr double kClearlyPositive = 0.02;  // scaled Jacobian above which a hex is left alone
-constexpr double kAttachment = 300;        // weight of the boundary while untangling
-constexpr int kMaxUntangleRounds = 40;
+constexpr int kMaxSlidingRounds = 12;
 
 // The polycube's edges on the object as curves, cut only where they meet.
 FeatureGraph chart_curves(const ObjectFeatures& object) {
@@ -81,20 +81,65 @@ std::vector<char> verts_of_bad_hexes(const FitState& state) {
   return is_member;
 }
 
-// Regularised sweeps around bad hexes, with less and less regularisation in ever wider
-// surroundings.
-void untangle(FitState& state, const FitTarget& target, const Context& context) {
-  double regularisation = 0.3;
-  for (int round = 0; round < kMaxUntangleRounds; ++round) {
+std::size_t count_inverted(const FitState& state) {
+  return summarize_quality(state.mesh).num_inverted;
+}
+
+// Runs a way of untangling, and undoes it when it leaves more hexes inverted than there were.
+template <class Way>
+void try_untangling(FitState& state, Way&& way) {
+  const std::size_t before = count_inverted(state);
+  if (before == 0) return;
+  const auto positions = state.mesh.positions;
+  way();
+  if (count_inverted(state) > before) state.mesh.positions = positions;
+}
+
+// With the boundary fixed where the map put it: what can be untangled from inside costs no
+// distance.
+void untangle_inside(FitState& state, const Context& context) {
+  const auto move = state.move;
+  for (VertId v : state.kind.ids())
+    if (state.is_boundary(v)) state.move[v] = MoveIn::Point;
+  fitting::untangle(state, context);
+  state.move = move;
+}
+
+// With boundary vertices gliding on their faces and edges, the looser the smaller the weight.
+void untangle_sliding(FitState& state, const FitTarget& target, double weight,
+                      const Context& context) {
+  for (int round = 0; round < kMaxSlidingRounds; ++round) {
     context.check_cancelled();
     auto is_member = verts_of_bad_hexes(state);
     if (is_member.empty()) return;
-    fitting::grow_vert_set(state, is_member, 2 + round / 6);
+    fitting::grow_vert_set(state, is_member, 2 + round / 4);
     const fitting::LocalSweep local(state, is_member);
-    fitting::update_targets(state, target, 0, is_member);
-    for (int k = 0; k < 3; ++k) local.run(state, {{0, 1, regularisation}, kAttachment, 0});
-    regularisation = std::max(0.7 * regularisation, 0.01);
+    fitting::SweepOptions options;
+    options.untangle_share = round % 2 == 0 ? 0.1 : 0.01;
+    options.weight = weight;
+    for (int k = 0; k < 3; ++k) {
+      fitting::update_targets(state, target, 0, is_member);
+      local.run(state, options);
+    }
   }
+}
+
+// From what costs no distance to what gives up the surface where the map itself is folded.
+void untangle(FitState& state, const FitTarget& target, const Context& context) {
+  try_untangling(state, [&] { untangle_inside(state, context); });
+  for (double weight : {1e4, 10.0, 0.0})
+    try_untangling(state, [&] { untangle_sliding(state, target, weight, context); });
+}
+
+// Brings back what the untangling took off the surface, as far as no hex inverts.
+void pull_to_surface(FitState& state, const FitTarget& target, const Context& context) {
+  fitting::update_targets(state, target, 0);
+  bool is_off = false;
+  for (VertId v : state.kind.ids()) is_off |= state.is_boundary(v) && state.residual(v) > 0.02;
+  if (!is_off) return;
+  fitting::run_schedule(state, target,
+                        {{0.9, 1, 0}, fitting::geometric_weights(10, 1e5, 5), 2, 0.03, false},
+                        context);
 }
 
 PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, PatchId>& patch) {
@@ -144,6 +189,7 @@ void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& latt
   constrain(state, mapped.place, object, graph, lattice.facet_to_chart);
   context.progress("untangle", 0);
   untangle(state, target, context);
+  pull_to_surface(state, target, context);
   context.progress("improve", 0);
   fitting::polish_worst(state, target, {}, context);
   fitting::snap_to_targets(state, target, 0.1);
