@@ -4,6 +4,8 @@
 #include "dual/optimize.h"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/vertex_newton.h"
@@ -25,7 +27,7 @@ struct Pass {
 // First almost everywhere for the mean, then ever higher powers, so that the worst corners dominate
 // at the end.
 constexpr Pass kImprovePasses[] = {
-    {0.9, 2, 1, {0.8, 1, 0}},
+    {0.9, 1, 1, {0.8, 1, 0}},
     {0.5, 3, 2, {0.5, 2, 0}},
     {0.45, 6, 2, {0.9, 4, 0}},
     {0.42, 6, 3, {0.9, 8, 0}},
@@ -38,7 +40,8 @@ class PositionOptimizer {
         stars_(mesh, vert_to_hex),
         colors_(mesh, vert_to_hex),
         goals_(mesh.num_verts()),
-        quality_(mesh.num_hexes()) {
+        quality_(mesh.num_hexes()),
+        has_moved_(mesh.num_verts(), 0) {
     parallel_for(mesh.num_verts(), [&](std::size_t v) {
       goals_[VertId(v)] = goal_of(VertId(v), fixed_axes[VertId(v)]);
     });
@@ -46,25 +49,40 @@ class PositionOptimizer {
   }
 
   // Repeats regularised sweeps around hexes that are inverted or nearly so, with less and less
-  // regularisation and wider and wider surroundings.
-  void untangle(const Context& context) {
+  // regularisation and wider and wider surroundings. False when some are left.
+  bool untangle(const Context& context) {
     constexpr double kClearlyPositive = 0.02;
     constexpr int kMaxRounds = 40;
     double untangle = 0.3;  // in units of the local edge cubed
     for (int round = 0; round < kMaxRounds; ++round) {
       context.check_cancelled();
-      if (!activate(kClearlyPositive, 2 + round / 6)) return;
-      for (int k = 0; k < kSweepsPerRound; ++k) sweep({0, 1, untangle});
+      if (!activate(kClearlyPositive, 2 + round / 6)) return true;
+      sweep_repeatedly({0, 1, untangle});
       measure();
       untangle = std::max(0.7 * untangle, 0.01);
     }
+    return !activate(0, 1);
+  }
+
+  // Lets the boundary vertices of inverted hexes leave the boundary: some corners where the domain
+  // is neither convex nor concave leave no other way. Returns how many.
+  std::size_t free_inverted() {
+    std::size_t num_freed = 0;
+    for (HexId h : mesh_.hexes.ids()) {
+      if (quality_[h] > 0) continue;
+      for (VertId v : mesh_.hexes[h]) {
+        num_freed += goals_[v].move != MoveIn::Space;
+        goals_[v].move = MoveIn::Space;
+      }
+    }
+    return num_freed;
   }
 
   void improve(const Pass& pass, const Context& context) {
     for (int round = 0; round < pass.num_rounds; ++round) {
       context.check_cancelled();
       if (!activate(pass.goal, pass.num_rings)) return;
-      for (int k = 0; k < kSweepsPerRound; ++k) sweep(pass.shape);
+      sweep_repeatedly(pass.shape);
       measure();
     }
   }
@@ -126,19 +144,29 @@ class PositionOptimizer {
     }
   }
 
-  void sweep(const ShapeEnergy& shape) {
+  // The first sweep moves all active vertices, the next ones only those that still moved.
+  void sweep_repeatedly(const ShapeEnergy& shape) {
+    for (int k = 0; k < kSweepsPerRound; ++k)
+      for (auto& verts : active_) {
+        parallel_chunks(verts.size(), 256, [&](std::size_t begin, std::size_t end) {
+          solve_verts(std::span(verts).subspan(begin, end - begin), shape);
+        });
+        std::erase_if(verts, [&](VertId v) { return !has_moved_[v.index()]; });
+      }
+  }
+
+  // Vertices of one colour: none reads what another one writes.
+  void solve_verts(std::span<const VertId> verts, const ShapeEnergy& shape) {
+    constexpr double kStill = 0.02;  // share of the longest step
     const IdSpan<VertId, Vec3> positions(mesh_.positions);
-    for (const auto& verts : active_)
-      parallel_chunks(verts.size(), 256, [&](std::size_t begin, std::size_t end) {
-        VertexNewton newton;
-        for (std::size_t i = begin; i < end; ++i) {
-          const VertId v = verts[i];
-          const double edge = 2 * goals_[v].max_step;
-          ShapeEnergy scaled = shape;
-          scaled.untangle *= edge * edge * edge;
-          newton.solve(v, stars_[v], goals_[v], scaled, positions);
-        }
-      });
+    VertexNewton newton;
+    for (VertId v : verts) {
+      const double edge = 2 * goals_[v].max_step;
+      ShapeEnergy scaled = shape;
+      scaled.untangle *= edge * edge * edge;
+      const double moved = newton.solve(v, stars_[v], goals_[v], scaled, positions);
+      has_moved_[v.index()] = moved > kStill * goals_[v].max_step;
+    }
   }
 
   HexMesh& mesh_;
@@ -147,15 +175,23 @@ class PositionOptimizer {
   IdVector<VertId, VertexGoal> goals_;
   IdVector<HexId, double> quality_;
   std::vector<std::vector<VertId>> active_;  // per colour
+  std::vector<char> has_moved_;              // per vertex, in its last solve
 };
 
 }  // namespace
 
-void optimize_positions(HexMesh& mesh, const VertToHex& vert_to_hex, const FixedAxes& fixed_axes,
-                        const Context& context) {
+std::size_t optimize_positions(HexMesh& mesh, const VertToHex& vert_to_hex,
+                               const FixedAxes& fixed_axes, const Context& context) {
+  constexpr int kMaxReleases = 3;
   PositionOptimizer optimizer(mesh, vert_to_hex, fixed_axes);
-  optimizer.untangle(context);
+  std::size_t num_freed = 0;
+  bool is_clear = optimizer.untangle(context);
+  for (int k = 0; k < kMaxReleases && !is_clear; ++k) {
+    num_freed += optimizer.free_inverted();
+    is_clear = optimizer.untangle(context);
+  }
   for (const Pass& pass : kImprovePasses) optimizer.improve(pass, context);
+  return num_freed;
 }
 
 }  // namespace hexwright::dual

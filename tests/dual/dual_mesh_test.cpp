@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
 
 #include "dual/dual_helpers.h"
 
@@ -57,6 +58,42 @@ TEST(DualMesh, CountsOfCubesWithoutCorners) {
   EXPECT_EQ(count({{1, 1, 1}}), 31u);
   EXPECT_EQ(count({{1, 1, 1}, {1, 1, 0}}), 27u);
   EXPECT_EQ(count({{1, 1, 1}, {1, 0, 1}, {0, 1, 1}}), 23u);
+}
+
+// The inset mesh is what lies between the centres of the outermost cells.
+TEST(DualMesh, InsetDropsTheHalfCells) {
+  const Grid grid = grid_of_blocks(5, {{0, {2, 2, 2}}});
+  const auto result = build_dual(grid, {DualMode::Blocks, true, true}, {});
+  EXPECT_EQ(find_mesh_problem(result.mesh, grid, false), "");
+  const Box3 box = bounding_box(result.mesh);
+  EXPECT_EQ(box.lo, (Vec3{0.5, 0.5, 0.5}));
+  EXPECT_EQ(box.hi, (Vec3{4.5, 4.5, 4.5}));
+  EXPECT_GT(result.report.min_scaled_jacobian, 0.2);
+}
+
+TEST(DualMesh, DoesNotDependOnTheNumberOfThreads) {
+  SplitTree tree(box_roots(6, 6, 6));
+  for (int k = 0; k < 4; ++k) tree.split(2, {4 + 4 * k, 6 + 3 * k, 9 + k});
+  tree.balance(false);
+  const Grid grid = tree.grid();
+  const auto build = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return build_dual(grid, {DualMode::Sheets, false, true}, {}).mesh;
+  };
+  const HexMesh one = build(1), three = build(3);
+  EXPECT_EQ(one.positions, three.positions);
+  EXPECT_EQ(one.hexes, three.hexes);
+}
+
+// A refined corner costs sheets mode less than completing the blocks costs blocks mode.
+TEST(DualMesh, SheetsNeverNeedMoreHexesThanBlocks) {
+  SplitTree sheets(box_roots(4, 4, 4));
+  sheets.split(0, {1, 1, 1});
+  SplitTree blocks = sheets;
+  blocks.split_block({0, {2, 2, 2}});
+  const auto by_sheets = build_dual(sheets.grid(), {DualMode::Sheets, false, false}, {});
+  const auto by_blocks = build_dual(blocks.grid(), kRaw, {});
+  EXPECT_LE(by_sheets.report.num_hexes, by_blocks.report.num_hexes);
 }
 
 TEST(DualMesh, BlocksModeRejectsUnpairedGrids) {

@@ -26,6 +26,8 @@ struct DualReport {
   std::size_t num_hexes = 0;
   std::size_t num_cap_hexes = 0;     ///< hexes that close a pillow
   std::size_t num_inverted_raw = 0;  ///< before optimisation
+  std::size_t num_freed_verts = 0;   ///< boundary vertices moved off the boundary to untangle; only
+                                     ///< at twisted corners of domains that are not boxes
   double min_scaled_jacobian_raw = 0, min_scaled_jacobian = 0, avg_scaled_jacobian = 0;
 };
 

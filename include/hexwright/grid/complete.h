@@ -15,7 +15,6 @@ namespace hexwright {
 
 enum class Balance {
   Relaxed,  ///< cells sharing a face, edge or vertex differ by at most two levels; for sheets
-            ///< sheets
   Weak,     ///< face neighbours differ by at most one level
   Strong    ///< cells sharing a face, edge or vertex differ by at most one level
 };

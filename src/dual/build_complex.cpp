@@ -1,0 +1,79 @@
+// The topology of the dual mesh: core planes, base mesh, pillows.
+#include "dual/build_complex.h"
+
+#include "dual/base_mesh.h"
+#include "dual/core_planes.h"
+#include "dual/crossed_cells.h"
+#include "dual/pillow_stack.h"
+
+namespace hexwright::dual {
+
+namespace {
+
+void reject_unpaired(std::size_t depth, std::size_t num_partners) {
+  throw Error(ErrorCode::BadArgument,
+              "the grid is not paired at depth " + std::to_string(depth) + ": " +
+                  std::to_string(num_partners) +
+                  " cells are missing from its 2x2x2 blocks; run complete() with pairing blocks "
+                  "or octree first, or use the mode sheets");
+}
+
+// From the coarsest depth on, as cells split here are parents at the next one.
+void choose_all_core_planes(std::vector<SplitNodes>& split, const Domain& domain, DualMode mode) {
+  constexpr int kMaxRounds = 10;
+  for (std::size_t depth = 0; depth < split.size(); ++depth) {
+    const int d = static_cast<int>(depth);
+    auto report = choose_core_planes(split[depth], d, domain);
+    if (mode == DualMode::Blocks && report.num_partners > 0)
+      reject_unpaired(depth, report.num_partners);
+    const SplitNodes* above = depth > 0 ? &split[depth - 1] : nullptr;
+    for (int round = 0; round < kMaxRounds && report.num_partners > 0; ++round) {
+      if (split_crossed_cells(split[depth], above, d, domain) == 0) break;
+      report = choose_core_planes(split[depth], d, domain);
+    }
+  }
+}
+
+// The same cells over roots of half the edge; root cubes that are leaves are split.
+Grid split_roots(const Grid& grid) {
+  std::vector<char> is_root_leaf(grid.num_cells());
+  for (CellId c : grid.cells.ids()) is_root_leaf[c.index()] = grid.cells[c].level == 0;
+  const Grid split = split_cells(grid, is_root_leaf);
+  std::vector<LatticeCoord> roots;
+  for (const LatticeCoord& r : split.roots)
+    for (int q = 0; q < 8; ++q)
+      roots.push_back({2 * r[0] + (q & 1), 2 * r[1] + (q >> 1 & 1), 2 * r[2] + (q >> 2)});
+  std::vector<CellSpec> cells;
+  for (CellId c : split.cells.ids()) {
+    CellSpec cell{split.cells[c].level - 1, split.cells[c].corner};
+    for (auto& x : cell.index) x /= split.cell_size(c);
+    cells.push_back(cell);
+  }
+  return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
+}
+
+BaseStatus try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
+  const Domain domain(grid);
+  auto split = collect_split_nodes(grid);
+  choose_all_core_planes(split, domain, mode);
+  complex = {};
+  complex.reserve(2 * grid.num_cells());
+  const BaseStatus status = build_base_mesh(domain, complex);
+  if (status == BaseStatus::Ok) PillowStack(complex, domain, split).run(context);
+  return status;
+}
+
+}  // namespace
+
+HexComplex build_complex(const Grid& grid, DualMode mode, const Context& context, Grid& used_grid) {
+  if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
+  HexComplex complex;
+  used_grid = grid;
+  if (try_build(grid, mode, context, complex) == BaseStatus::Ok) return complex;
+  used_grid = split_roots(grid);
+  if (try_build(used_grid, mode, context, complex) == BaseStatus::TooThin)
+    throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");
+  return complex;
+}
+
+}  // namespace hexwright::dual
