@@ -1,6 +1,7 @@
 // The last passes of the fit: they work where something is left to do.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fit/fit_state.h"
@@ -30,7 +31,18 @@ void polish_worst(FitState& state, const FitTarget& target, const PolishOptions&
 
 /// Moves boundary vertices onto their targets, halving the way up to five times, while the least
 /// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.
-void snap_to_targets(FitState& state, const FitTarget& target, double least_quality);
+/// `only`: empty or one entry per vertex.
+void snap_to_targets(FitState& state, const FitTarget& target, double least_quality,
+                     std::span<const char> only = {});
+
+struct LiftOptions {
+  double goal = 0.6;  ///< least scaled Jacobian to be content with
+  int max_rounds = 12;
+  double residual_slack = 1e-4;  ///< how much the sum of squared residuals (in h) may grow
+};
+/// Raises the least scaled Jacobian with boundary vertices sliding only. Never lowers it.
+void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& options,
+                const Context& context);
 
 /// Works on hexes whose Jacobian is not proven positive everywhere inside, letting go of the
 /// surface around them more and more; returns those that remain.

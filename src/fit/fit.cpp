@@ -96,7 +96,8 @@ class Fitter {
     clock_.run("polish", 0.9, [&] { polish_worst(result.state, target(), {}, context_); });
     clock_.run("snap", 0.95,
                [&] { snap_to_targets(result.state, target(), options_.snap_quality); });
-    clock_.run("prove", 0.97,
+    clock_.run("lift", 0.96, [&] { lift_worst(result.state, target(), {}, context_); });
+    clock_.run("prove", 0.98,
                [&] { report_.unproven = mend_unproven(result.state, target(), context_); });
     return conclude(std::move(result));
   }

@@ -23,13 +23,15 @@ void snap_vertex(FitState& state, VertId v, double least_quality) {
 
 }  // namespace
 
-void snap_to_targets(FitState& state, const FitTarget& target, double least_quality) {
-  update_targets(state, target, 0);
+void snap_to_targets(FitState& state, const FitTarget& target, double least_quality,
+                     std::span<const char> only) {
+  update_targets(state, target, 0, only);
   for (std::size_t c = 0; c < state.colors.num_colors(); ++c) {
     const auto verts = state.colors[c];
     parallel_for(
         verts.size(),
         [&](std::size_t i) {
+          if (!only.empty() && !only[verts[i].index()]) return;
           if (state.is_boundary(verts[i]) && state.move[verts[i]] != MoveIn::Point)
             snap_vertex(state, verts[i], least_quality);
         },
