@@ -76,6 +76,7 @@ void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& opt
   auto quality = compute_scaled_jacobians(state.mesh);
   Score best = score(state, quality);
   auto best_positions = state.mesh.positions;
+  auto best_arcs = state.arc;  // targets on curves are looked for near these
   int power = 3;
   for (int round = 0; round < options.max_rounds && best.least < options.goal; ++round) {
     context.check_cancelled();
@@ -95,12 +96,15 @@ void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& opt
       const bool is_progress = now.least > best.least + 1e-3;
       best = now;
       best_positions = state.mesh.positions;
+      best_arcs = state.arc;
       if (is_progress) continue;
     }
     if (power >= 48) break;
     power *= 2;
   }
   state.mesh.positions = best_positions;
+  state.arc = best_arcs;
+  update_targets(state, target, 0);
 }
 
 }  // namespace hexwright::fitting
