@@ -6,34 +6,12 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/finish.h"
+#include "fit/slide_only.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
 
 namespace hexwright::fitting {
 namespace {
-
-// Restricts boundary vertices of a region to their tangents while it lives.
-class SlideOnly {
- public:
-  SlideOnly(FitState& state, const std::vector<char>& region) : state_(state) {
-    for (VertId v : state.kind.ids()) {
-      if (!region[v.index()] || !state.is_boundary(v) || state.move[v] != MoveIn::Space) continue;
-      constexpr MoveIn kMove[] = {MoveIn::Space, MoveIn::Plane, MoveIn::Line, MoveIn::Point};
-      state.move[v] = kMove[static_cast<std::size_t>(state.kind[v])];
-      state.axis[v] = normalized(state.direction[v]);
-      verts_.push_back(v);
-    }
-  }
-  ~SlideOnly() {
-    for (VertId v : verts_) state_.move[v] = MoveIn::Space;
-  }
-  SlideOnly(const SlideOnly&) = delete;
-  SlideOnly& operator=(const SlideOnly&) = delete;
-
- private:
-  FitState& state_;
-  std::vector<VertId> verts_;
-};
 
 struct Score {
   double least = 0;           // scaled Jacobian
