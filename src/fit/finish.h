@@ -36,8 +36,8 @@ void snap_to_targets(FitState& state, const FitTarget& target, double least_qual
                      std::span<const char> only = {});
 
 struct LiftOptions {
-  double goal = 0.6;  ///< least scaled Jacobian to be content with
-  int max_rounds = 12;
+  double goal = 0.65;  ///< least scaled Jacobian to be content with
+  int max_rounds = 20;
   double residual_slack = 1e-4;  ///< how much the sum of squared residuals (in h) may grow
 };
 /// Raises the least scaled Jacobian with boundary vertices sliding only. Never lowers it.
