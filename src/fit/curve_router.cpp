@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -16,6 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHistoryStep = 1.5;
 constexpr double kPressureGrowth = 1.5;
 constexpr int kPressureRounds = 14;
+constexpr double kGoldenShare = 0.381966;  // of a loop, between the starts of two routings
 constexpr std::array<int, 3> kRelocationRounds = {14, 24, 34};
 
 std::int64_t edge_key(VertId a, VertId b) {
@@ -33,10 +35,7 @@ CurveRouter::CurveRouter(const RoutingProblem& problem, std::vector<VertId> corn
       occupancy_(problem.graph.num_verts(), 0),
       history_(problem.graph.num_verts(), 0.0),
       num_moves_(problem.graph.num_verts(), 0),
-      tube_slot_(problem.graph.num_verts(), -1),
-      cost_(problem.graph.num_verts(), kInfinity),
-      from_(problem.graph.num_verts()),
-      is_on_path_(problem.graph.num_verts(), 0) {
+      tube_slot_(problem.graph.num_verts(), -1) {
   for (VertId v : corner_verts_)
     if (v.is_valid()) is_corner_[v.index()] = 1;
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = CurveId(i);
@@ -47,7 +46,7 @@ CurveRouter::CurveRouter(const RoutingProblem& problem, std::vector<VertId> corn
     if (!in_.options.is_banned.empty() && in_.options.is_banned[c])
       kill(c, "left out on request");
     else
-      choose_waypoints(c);
+      choose_ends(c);
   }
 }
 
@@ -72,10 +71,8 @@ bool CurveRouter::negotiate_round(int iteration) {
     if (!r.is_alive) continue;
     if (iteration > 0) {
       if (!has_conflict(c)) continue;
-      const bool is_stuck = std::any_of(r.waypoints.begin(), r.waypoints.end(),
-                                        [&](VertId v) { return is_contested(v); });
       clear_route(c);
-      if (is_stuck) choose_waypoints(c);
+      choose_ends(c);
     }
     if (r.is_alive) try_route(c);
   }
@@ -126,10 +123,10 @@ bool CurveRouter::is_taken_edge(VertId a, VertId b, CurveId c) const {
   return it != direct_edges_.end() && it->second != c;
 }
 
-// --- waypoints ---
+// --- ends ---
 
-/// The free vertex of the tube that suits a point of the curve best: near and not contested.
-VertId CurveRouter::best_waypoint(CurveId c, double arc) const {
+/// The free vertex of the tube that suits a loop's start best: near the curve and not contested.
+VertId CurveRouter::best_start(CurveId c, double arc) const {
   const Vec3 p = point_at_arc(in_.surface, in_.features.curves[c], arc).point;
   VertId best;
   double best_cost = kInfinity;
@@ -147,40 +144,24 @@ VertId CurveRouter::best_waypoint(CurveId c, double arc) const {
   return best;
 }
 
-/// The corners of an open curve, the vertex nearest to the start of a loop.
-bool CurveRouter::choose_ends(CurveId c) {
-  auto& w = routes_[c].waypoints;
-  if (in_.features.curves[c].is_closed) {
-    w.front() = w.back() = best_waypoint(c, 0);
-  } else {
-    const auto [first, last] = in_.ends.curve_to_corners[c];
-    w.front() = corner_verts_[static_cast<std::size_t>(first)];
-    w.back() = corner_verts_[static_cast<std::size_t>(last)];
+/// The corners of an open curve. A loop starts elsewhere each time, so that no vertex is forced on
+/// it for long.
+void CurveRouter::choose_ends(CurveId c) {
+  const FeatureCurve& curve = in_.features.curves[c];
+  Route& r = routes_[c];
+  if (r.gates.empty())
+    r.gates = find_waypoint_arcs(in_.surface, curve, mean_edge_length(in_.boundary, in_.tubes[c]));
+  if (curve.is_closed) {
+    const double turn = kGoldenShare * r.num_routings++;
+    r.start_arc = curve.length() * (turn - std::floor(turn));
+    r.source = r.target = best_start(c, r.start_arc);
+    if (!r.source.is_valid()) kill(c, "no boundary vertex near it");
+    return;
   }
-  return w.front().is_valid() && w.back().is_valid();
-}
-
-/// The path's ends and the vertices it must pass. Fails where two that should differ are the same.
-void CurveRouter::choose_waypoints(CurveId c) {
-  auto& waypoints = routes_[c].waypoints;
-  auto& arcs = routes_[c].arcs;
-  if (arcs.empty())
-    arcs = find_waypoint_arcs(in_.surface, in_.features.curves[c],
-                              mean_edge_length(in_.boundary, in_.tubes[c]));
-  waypoints.assign(arcs.size(), VertId{});
-  if (!choose_ends(c)) {
-    waypoints.clear();
-    return kill(c, in_.features.curves[c].is_closed ? "no boundary vertex near it"
-                                                    : "no boundary vertex for its corner");
-  }
-  for (std::size_t k = 1; k + 1 < arcs.size(); ++k) {
-    waypoints[k] = best_waypoint(c, arcs[k]);
-    const bool is_new =
-        waypoints[k].is_valid() &&
-        std::find(waypoints.begin(), waypoints.begin() + static_cast<std::ptrdiff_t>(k),
-                  waypoints[k]) == waypoints.begin() + static_cast<std::ptrdiff_t>(k);
-    if (!is_new) return kill(c, "smaller than the mesh resolves");
-  }
+  const auto [first, last] = in_.ends.curve_to_corners[c];
+  r.source = corner_verts_[static_cast<std::size_t>(first)];
+  r.target = corner_verts_[static_cast<std::size_t>(last)];
+  if (!r.source.is_valid() || !r.target.is_valid()) kill(c, "no boundary vertex for its corner");
 }
 
 // --- corners that move ---
@@ -247,7 +228,7 @@ void CurveRouter::relocate_corner(std::size_t corner) {
   is_corner_[old.index()] = 0;
   is_corner_[now.index()] = 1;
   corner_verts_[corner] = now;
-  for (CurveId c : affected) choose_waypoints(c);
+  for (CurveId c : affected) choose_ends(c);
   for (CurveId c : affected)
     if (routes_[c].is_alive) try_route(c);
 }
@@ -277,10 +258,10 @@ void CurveRouter::retry_dropped() {
   is_sharing_allowed_ = false;
   for (CurveId c : order_) {
     Route& r = routes_[c];
-    if (r.is_alive || r.waypoints.size() < 2) continue;
+    if (r.is_alive || !r.source.is_valid() || !r.target.is_valid()) continue;
     const std::string reason = r.reason;
     r.is_alive = true;
-    choose_waypoints(c);
+    choose_ends(c);
     if (r.is_alive && !try_route(c)) r.reason = reason;
   }
 }

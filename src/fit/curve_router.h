@@ -43,20 +43,21 @@ class CurveRouter {
 
  private:
   struct Route {
-    std::vector<VertId> waypoints;  // the path's ends and what it must pass in between
-    std::vector<double> arcs;       // of the waypoints; ascending, a loop's ends are 0 and length
+    VertId source, target;      // the path's ends, equal on a loop
+    double start_arc = 0;       // where a loop starts
+    std::vector<double> gates;  // arcs, from the start, that the path must pass in order
+    int num_routings = 0;
     std::vector<VertId> path;
     std::string reason;
     bool is_alive = true;
   };
-  struct Search;  // what one segment's search needs
+  struct Search;  // one shortest path search
 
-  void choose_waypoints(CurveId c);
-  bool choose_ends(CurveId c);
-  bool is_in_window(const Search& search, const TubeVert& t) const;
-  VertId best_waypoint(CurveId c, double arc) const;
+  void choose_ends(CurveId c);
+  VertId best_start(CurveId c, double arc) const;
   bool route(CurveId c);
-  bool route_segment(const Search& search, std::vector<VertId>& path);
+  std::vector<VertId> find_path(Search& search) const;
+  std::vector<VertId> trace(const Search& search, int state) const;
   bool may_enter(const Search& search, VertId from, VertId to) const;
   double step_cost(const Search& search, VertId from, VertId to) const;
   bool try_route(CurveId c);
@@ -72,7 +73,6 @@ class CurveRouter {
   VertId best_relocation(std::size_t corner) const;
   void drop_conflicting();
   void retry_dropped();
-  void load_tube(CurveId c);
 
   RoutingProblem in_;
   std::vector<VertId> corner_verts_;
@@ -87,12 +87,8 @@ class CurveRouter {
   bool is_sharing_allowed_ = true;
   int num_iterations_ = 0;
 
-  // Scratch of the searches, reset after use.
-  std::vector<int> tube_slot_;  // per vertex: index in the loaded tube, -1 outside
-  CurveId loaded_;
-  std::vector<double> cost_;
-  std::vector<VertId> from_;
-  std::vector<char> is_on_path_;
+  // Scratch of the searches.
+  std::vector<int> tube_slot_;  // per vertex: index in the tube searched, -1 outside
 };
 
 }  // namespace hexwright::fitting

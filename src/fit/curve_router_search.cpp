@@ -1,4 +1,6 @@
-// The shortest path searches of the curve router: Dijkstra from waypoint to waypoint in the tube.
+// The shortest path searches of the curve router: Dijkstra in the tube, in layers. A path moves to
+// the next layer where it passes the next gate of the curve, so that it cannot cut a winding curve
+// short; which vertex it passes the gate at is free.
 #include <algorithm>
 #include <limits>
 #include <queue>
@@ -9,80 +11,85 @@ namespace hexwright::fitting {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kWindowSlack = 3;    // edge lengths beyond a segment's arcs
-constexpr double kMaxDistanceSq = 4;  // a vertex farther than two edge lengths costs no more
+constexpr double kWindowSlack = 3;     // edge lengths beyond a layer's gates
+constexpr double kMaxDistanceSq = 4;   // a vertex farther than two edge lengths costs no more
+constexpr std::size_t kLeastLoop = 4;  // edges
 
 struct QueueItem {
   double cost;
-  VertId vert;
+  int state;
   friend bool operator>(const QueueItem& x, const QueueItem& y) {
-    return x.cost != y.cost ? x.cost > y.cost : x.vert > y.vert;
+    return x.cost != y.cost ? x.cost > y.cost : x.state > y.state;
   }
 };
+
+/// Drops a common stem of a loop's start and end; false when a vertex is still passed twice.
+bool make_simple(std::vector<VertId>& path, bool is_closed) {
+  while (is_closed && path.size() > 3 && path[1] == path[path.size() - 2]) {
+    path.erase(path.begin());
+    path.pop_back();
+  }
+  std::vector<VertId> sorted(path.begin(), path.end() - 1);
+  if (path.front() != path.back()) sorted.push_back(path.back());
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+}
 
 }  // namespace
 
 struct CurveRouter::Search {
+  const CurveRouter& router;
   CurveId curve;
-  VertId source, target;
-  double arc_lo, arc_hi;  // of the waypoints; vertices nearest to other parts of the curve are out
+  const Route& route;
+  std::vector<TubeVert> nodes;  // the tube, and ends that are not in it
+  int num_layers;
+  std::vector<double> cost;  // per state = layer * nodes + node
+  std::vector<int> from;
+
+  int num_nodes() const { return static_cast<int>(nodes.size()); }
+  const TubeVert& node(int state) const {
+    return nodes[static_cast<std::size_t>(state % num_nodes())];
+  }
+  double size(const TubeVert& t) const { return router.in_.boundary.edge_length[t.vert]; }
+
+  /// The arc from the path's start, or that plus or minus a loop's length, is in an interval.
+  bool is_near(const TubeVert& t, double lo, double hi) const {
+    const FeatureCurve& c = router.in_.features.curves[curve];
+    const double arc = t.arc - route.start_arc;
+    if (arc >= lo && arc <= hi) return true;
+    if (c.verts.front() != c.verts.back()) return false;
+    return (arc + c.length() >= lo && arc + c.length() <= hi) ||
+           (arc - c.length() >= lo && arc - c.length() <= hi);
+  }
+
+  bool is_in_layer(const TubeVert& t, int layer) const {
+    const auto k = static_cast<std::size_t>(layer);
+    const double slack = kWindowSlack * size(t);
+    return is_near(t, route.gates[k] - slack, route.gates[k + 1] + slack);
+  }
+
+  /// At the gate between a layer and the next.
+  bool is_at_gate(const TubeVert& t, int layer) const {
+    const auto k = static_cast<std::size_t>(layer);
+    const double gate = route.gates[k + 1];
+    const double shorter = std::min(gate - route.gates[k], route.gates[k + 2] - gate);
+    const double width = std::min(size(t), 0.25 * shorter);
+    return is_near(t, gate - width, gate + width);
+  }
 };
 
-void CurveRouter::load_tube(CurveId c) {
-  if (loaded_ == c) return;
-  if (loaded_.is_valid())
-    for (const TubeVert& t : in_.tubes[loaded_]) tube_slot_[t.vert.index()] = -1;
-  const auto& tube = in_.tubes[c];
-  for (std::size_t i = 0; i < tube.size(); ++i)
-    tube_slot_[tube[i].vert.index()] = static_cast<int>(i);
-  loaded_ = c;
-}
-
-/// Fills the curve's path; false (and no path) when a segment finds no way.
-bool CurveRouter::route(CurveId c) {
-  load_tube(c);
-  const auto& waypoints = routes_[c].waypoints;
-  const auto& arcs = routes_[c].arcs;
-  std::vector<VertId> path{waypoints[0]};
-  for (VertId v : waypoints) is_on_path_[v.index()] = 1;
-  bool found = true;
-  for (std::size_t k = 1; k < waypoints.size() && found; ++k) {
-    found = route_segment({c, waypoints[k - 1], waypoints[k], arcs[k - 1], arcs[k]}, path);
-    for (VertId v : path) is_on_path_[v.index()] = 1;
-  }
-  for (VertId v : waypoints) is_on_path_[v.index()] = 0;
-  for (VertId v : path) is_on_path_[v.index()] = 0;
-  if (found) routes_[c].path = std::move(path);
-  return found;
-}
-
-bool CurveRouter::is_in_window(const Search& search, const TubeVert& t) const {
-  const FeatureCurve& curve = in_.features.curves[search.curve];
-  const double slack = kWindowSlack * in_.boundary.edge_length[t.vert];
-  const auto is_in = [&](double arc) {
-    return arc >= search.arc_lo - slack && arc <= search.arc_hi + slack;
-  };
-  if (is_in(t.arc)) return true;
-  if (curve.verts.front() != curve.verts.back()) return false;
-  return is_in(t.arc - curve.length()) || is_in(t.arc + curve.length());
-}
-
 bool CurveRouter::may_enter(const Search& search, VertId from, VertId to) const {
-  if (to == search.target)
-    return !(from == search.source && is_corner(from) && is_corner(to) &&
+  const Route& r = search.route;
+  if (to == r.target)
+    return !(from == r.source && is_corner(from) && is_corner(to) &&
              is_taken_edge(from, to, search.curve));
-  if (is_corner(to) || is_on_path_[to.index()] || tube_slot_[to.index()] < 0) return false;
-  if (!is_sharing_allowed_ && occupancy_[to.index()] > 0) return false;
-  return is_in_window(search,
-                      in_.tubes[search.curve][static_cast<std::size_t>(tube_slot_[to.index()])]);
+  if (is_corner(to) || to == r.source || tube_slot_[to.index()] < 0) return false;
+  return is_sharing_allowed_ || occupancy_[to.index()] == 0;
 }
 
 double CurveRouter::step_cost(const Search& search, VertId from, VertId to) const {
-  const auto& tube = in_.tubes[search.curve];
   const auto distance_sq = [&](VertId v) {
-    const int slot = tube_slot_[v.index()];
-    if (slot < 0) return 1.0;  // a corner farther away than the tube
-    const double d = tube[static_cast<std::size_t>(slot)].distance;
+    const double d = search.nodes[static_cast<std::size_t>(tube_slot_[v.index()])].distance;
     return std::min(kMaxDistanceSq, d * d);
   };
   const double mean_sq = 0.5 * (distance_sq(from) + distance_sq(to));
@@ -93,35 +100,72 @@ double CurveRouter::step_cost(const Search& search, VertId from, VertId to) cons
   return cost * (1 + pressure_ * occupancy_[to.index()]) + history_[to.index()];
 }
 
-/// Appends the cheapest way from source to target, without the source.
-bool CurveRouter::route_segment(const Search& search, std::vector<VertId>& path) {
-  std::vector<VertId> touched{search.source};
+/// Fills the curve's path with the cheapest way; false (and no path) when there is none.
+bool CurveRouter::route(CurveId c) {
+  const Route& r = routes_[c];
+  Search search{*this, c, r, in_.tubes[c], static_cast<int>(r.gates.size()) - 1, {}, {}};
+  for (std::size_t i = 0; i < search.nodes.size(); ++i)
+    tube_slot_[search.nodes[i].vert.index()] = static_cast<int>(i);
+  const double length = in_.features.curves[c].length();
+  for (const auto& [end, arc] : {std::pair{r.source, 0.0}, std::pair{r.target, length}})
+    if (tube_slot_[end.index()] < 0) {  // a corner may be farther away than the tube
+      tube_slot_[end.index()] = search.num_nodes();
+      search.nodes.push_back({end, 1.0, arc});
+    }
+  std::vector<VertId> path = find_path(search);
+  for (const TubeVert& t : search.nodes) tube_slot_[t.vert.index()] = -1;
+  const bool is_closed = in_.features.curves[c].is_closed;
+  if (path.size() < 2 || !make_simple(path, is_closed)) return false;
+  if (path.front() == path.back() && path.size() <= kLeastLoop) return false;
+  routes_[c].path = std::move(path);
+  return true;
+}
+
+std::vector<VertId> CurveRouter::find_path(Search& search) const {
+  const Route& r = search.route;
+  const int n = search.num_nodes();
+  search.cost.assign(static_cast<std::size_t>(n * search.num_layers), kInfinity);
+  search.from.assign(search.cost.size(), -1);
   std::priority_queue<QueueItem, std::vector<QueueItem>, std::greater<>> queue;
-  cost_[search.source.index()] = 0;
-  queue.push({0, search.source});
-  bool found = false;
-  while (!queue.empty() && !found) {
-    const auto [cost, v] = queue.top();
+  const auto reach = [&](int state, double cost, int from) {
+    double& known = search.cost[static_cast<std::size_t>(state)];
+    if (cost >= known) return;
+    known = cost;
+    search.from[static_cast<std::size_t>(state)] = from;
+    queue.push({cost, state});
+  };
+  reach(tube_slot_[r.source.index()], 0, -1);
+  while (!queue.empty()) {
+    const auto [cost, state] = queue.top();
     queue.pop();
-    if (cost > cost_[v.index()]) continue;
-    found = v == search.target;
-    if (found) break;
+    if (cost > search.cost[static_cast<std::size_t>(state)]) continue;
+    const int layer = state / n;
+    const bool is_last = layer + 1 == search.num_layers;
+    const VertId v = search.node(state).vert;
+    const bool has_left = search.from[static_cast<std::size_t>(state)] >= 0;
+    if (v == r.target && is_last && has_left) return trace(search, state);
+    if (v == r.target && has_left) continue;
+    if (!is_last && search.is_at_gate(search.node(state), layer)) reach(state + n, cost, state);
     for (VertId w : in_.graph.neighbors(v)) {
       if (!may_enter(search, v, w)) continue;
-      const double total = cost + step_cost(search, v, w);
-      if (total >= cost_[w.index()]) continue;
-      if (cost_[w.index()] == kInfinity) touched.push_back(w);
-      cost_[w.index()] = total;
-      from_[w.index()] = v;
-      queue.push({total, w});
+      if (w == r.target && !is_last) continue;
+      const int slot = tube_slot_[w.index()];
+      const TubeVert& t = search.nodes[static_cast<std::size_t>(slot)];
+      if (w != r.target && !search.is_in_layer(t, layer)) continue;
+      reach(layer * n + slot, cost + step_cost(search, v, w), state);
     }
   }
-  const std::size_t begin = path.size();
-  if (found)
-    for (VertId v = search.target; v != search.source; v = from_[v.index()]) path.push_back(v);
-  std::reverse(path.begin() + static_cast<std::ptrdiff_t>(begin), path.end());
-  for (VertId v : touched) cost_[v.index()] = kInfinity;
-  return found;
+  return {};
+}
+
+std::vector<VertId> CurveRouter::trace(const Search& search, int state) const {
+  std::vector<VertId> path;
+  for (; state >= 0; state = search.from[static_cast<std::size_t>(state)]) {
+    const VertId v = search.node(state).vert;
+    if (path.empty() || path.back() != v) path.push_back(v);
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 }  // namespace hexwright::fitting

@@ -1,4 +1,4 @@
-// Where a path must pass so that it follows its curve instead of cutting it short.
+// Arcs a path must pass so that it follows its curve instead of cutting it short.
 #pragma once
 
 #include <vector>
