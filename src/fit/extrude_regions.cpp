@@ -56,7 +56,7 @@ class Extrusion {
   void collect_quads() {
     for (QuadId q : marks_.quad_to_region.ids()) {
       if (!is_in(q)) continue;
-      sheet_.quads.push_back(state_.quads[q.index()]);
+      sheet_.quads.push_back(face_verts(state_.mesh, state_.quad_face[q.index()]));
       sheet_.behind.push_back(state_.quad_face[q.index()].hex);
     }
     sheet_.verts = sheet_verts(sheet_.quads);
@@ -80,7 +80,7 @@ class Extrusion {
     const Vec3& o = state_.mesh.positions[v];
     for (QuadId q : marked_.graph.quads(v)) {
       if (!is_in(q)) continue;
-      const auto& quad = state_.quads[q.index()];
+      const auto quad = face_verts(state_.mesh, state_.quad_face[q.index()]);
       const auto k =
           static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
       const Vec3 a = state_.mesh.positions[quad[(k + 1) % 4]] - o;

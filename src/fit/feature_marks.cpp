@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/parallel.h"
+
 namespace hexwright::fitting {
 namespace {
 
@@ -133,11 +135,20 @@ std::optional<Issue> find_problem(const FitState& state, const FeatureMarks& mar
   return find_edge_problem(state, marks, graph);
 }
 
-BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks) {
+BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks,
+                           const SurfaceTree& tree) {
   BoundaryLabels labels;
-  for (QuadId q : marks.quad_to_region.ids())
-    labels.quads.push_back(
-        {state.quads[q.index()], marks.region_to_patch[marks.quad_to_region[q]]});
+  labels.quads.resize(state.quads.size());
+  const BoundaryQuads boundary = boundary_view(state);
+  parallel_for(
+      labels.quads.size(),
+      [&](std::size_t i) {
+        const QuadId q(i);
+        PatchId patch = marks.region_to_patch[marks.quad_to_region[q]];
+        if (!patch.is_valid()) patch = nearest_patch(boundary, tree, q);
+        labels.quads[i] = {state.quads[i], patch};
+      },
+      1024);
   labels.edges = marks.edges;
   for (VertId v : state.kind.ids())
     if (state.kind[v] == VertKind::Corner) labels.corners.push_back(v);

@@ -47,7 +47,9 @@ void restore_regions(const FitState& state, std::vector<QuadLabel> labels, Featu
 /// passed by exactly its curve.
 std::optional<Issue> find_problem(const FitState& state, const FeatureMarks& marks);
 
-/// What users get: patch of each boundary quad, curve of each marked edge, corners.
-BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks);
+/// What users get: patch of each boundary quad, curve of each marked edge, corners. A quad of a
+/// region without a patch gets that of the nearest triangle that faces its way.
+BoundaryLabels make_labels(const FitState& state, const FeatureMarks& marks,
+                           const SurfaceTree& tree);
 
 }  // namespace hexwright::fitting

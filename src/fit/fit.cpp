@@ -200,7 +200,7 @@ class Fitter {
     report_features(state, features_, result.mapping, report_);
     report_.num_hexes_padded = state.mesh.num_hexes();
     report_.misses = find_misses(state);
-    state.mesh.labels = make_labels(state, result.marks);
+    state.mesh.labels = make_labels(state, result.marks, tree_);
     if (state.side ==
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);

@@ -15,21 +15,25 @@ struct Ballot {
   double area = 0;
 };
 
-/// The patch nearest to a quad's centre among triangles that face its way, if there are any.
-Ballot cast_ballot(const BoundaryQuads& boundary, const SurfaceTree& tree, QuadId q) {
-  std::array<Vec3, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = boundary.positions[boundary.quads[q][k]];
-  const Vec3 center = (p[0] + p[1] + p[2] + p[3]) * 0.25;
-  const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
-  ClosestFilter facing;
-  facing.normal = normalized(normal);
-  facing.min_cosine = 0.3;
-  auto nearest = tree.closest(center, facing);
-  if (!nearest) nearest = tree.closest(center);
-  return {{}, nearest ? tree.patch(nearest->tri) : PatchId{}, norm(normal)};
+double quad_area(const BoundaryQuads& boundary, QuadId q) {
+  const auto& quad = boundary.quads[q];
+  const auto& p = boundary.positions;
+  return 0.5 * norm(cross(p[quad[2]] - p[quad[0]], p[quad[3]] - p[quad[1]]));
 }
 
 }  // namespace
+
+PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree, QuadId q) {
+  std::array<Vec3, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = boundary.positions[boundary.quads[q][k]];
+  const Vec3 center = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+  ClosestFilter facing;
+  facing.normal = normalized(cross(p[2] - p[0], p[3] - p[1]));
+  facing.min_cosine = 0.3;
+  auto nearest = tree.closest(center, facing);
+  if (!nearest) nearest = tree.closest(center);
+  return nearest ? tree.patch(nearest->tri) : PatchId{};
+}
 
 std::vector<LabeledEdge> collect_marked_edges(const FeatureMapping& mapping) {
   std::vector<LabeledEdge> marked;
@@ -84,8 +88,9 @@ void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, Region
   parallel_for(
       ballots.size(),
       [&](std::size_t i) {
-        ballots[i] = cast_ballot(boundary, tree, QuadId(i));
-        ballots[i].region = regions.quad_to_region[QuadId(i)];
+        const QuadId q(i);
+        ballots[i] = {regions.quad_to_region[q], nearest_patch(boundary, tree, q),
+                      quad_area(boundary, q)};
       },
       64);
   std::stable_sort(ballots.begin(), ballots.end(), [](const Ballot& x, const Ballot& y) {

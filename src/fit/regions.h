@@ -30,6 +30,10 @@ struct RegionMap {
 RegionMap compute_regions(const BoundaryGraph& graph,
                           const IdVector<BoundaryEdgeId, CurveId>& edge_to_curve);
 
+/// The patch nearest to a quad's centre among triangles that face its way, or among all when none
+/// does.
+PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree, QuadId q);
+
 /// Gives each region the patch that more than half of its area lies nearest to. The tree carries
 /// the patches between the mapped curves (SurfaceTree::set_patches).
 void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, RegionMap& regions);

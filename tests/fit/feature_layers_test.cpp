@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, Pillow, ::testing::Values(0.2, 0.4, 0.55, 0.7))
 
 TEST(FeatureMarks, LabelEveryQuadEdgeAndCorner) {
   TurnedCube c(0.4);
-  const BoundaryLabels labels = make_labels(c.state, c.attached.marks);
+  const BoundaryLabels labels = make_labels(c.state, c.attached.marks, c.tree);
   EXPECT_EQ(labels.quads.size(), c.state.quads.size());
   for (const LabeledQuad& quad : labels.quads) EXPECT_TRUE(quad.patch.is_valid());
   EXPECT_EQ(labels.corners.size(), 8u);
