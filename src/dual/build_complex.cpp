@@ -1,9 +1,12 @@
 // The topology of the dual mesh: core planes, base mesh, pillows.
 #include "dual/build_complex.h"
 
+#include <cmath>
+
 #include "dual/base_mesh.h"
 #include "dual/core_planes.h"
 #include "dual/crossed_cells.h"
+#include "dual/double_links.h"
 #include "dual/pillow_stack.h"
 
 namespace hexwright::dual {
@@ -52,15 +55,48 @@ Grid split_roots(const Grid& grid) {
   return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
 }
 
-BaseStatus try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
-  const Domain domain(grid);
-  auto split = collect_split_nodes(grid);
-  choose_all_core_planes(split, domain, mode);
+BaseStatus stack_pillows(const Domain& domain, const std::vector<SplitNodes>& split,
+                         const Context& context, HexComplex& complex) {
+  const std::size_t capacity = complex.verts.raw().capacity();
   complex = {};
-  complex.reserve(2 * grid.num_cells());
+  complex.reserve(capacity);
   const BaseStatus status = build_base_mesh(domain, complex);
   if (status == BaseStatus::Ok) PillowStack(complex, domain, split).run(context);
   return status;
+}
+
+// Splits the leaf that holds the point; false when it is one of the finest.
+bool split_leaf_at(const Vec3& point, std::vector<SplitNodes>& split, const Domain& domain) {
+  for (std::size_t depth = 0; depth < split.size(); ++depth) {
+    const double edge = domain.root_edge() >> depth;
+    LatticeCoord node;
+    for (int a = 0; a < 3; ++a) node[a] = static_cast<std::int32_t>(std::floor(point[a] / edge));
+    if (split[depth].contains(node)) continue;
+    if (!domain.contains_node(node, static_cast<int>(depth))) return false;
+    split[depth].insert(node);
+    return true;
+  }
+  return false;
+}
+
+// Sheets mode alone: where two quads share two edges the cell they lie in is split instead, which
+// is rare (one random grid in a thousand), until none are left.
+BaseStatus try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
+  constexpr int kMaxRepairs = 20;
+  const Domain domain(grid);
+  auto split = collect_split_nodes(grid);
+  complex.reserve(2 * grid.num_cells());
+  for (int repair = 0;; ++repair) {
+    choose_all_core_planes(split, domain, mode);
+    const BaseStatus status = stack_pillows(domain, split, context, complex);
+    if (status != BaseStatus::Ok || mode == DualMode::Blocks || repair == kMaxRepairs)
+      return status;
+    const auto doubled = find_double_links(complex);
+    bool has_split = false;
+    for (const Vec3& point : mean_places(complex, doubled))
+      has_split |= split_leaf_at(point, split, domain);
+    if (!has_split) return status;
+  }
 }
 
 }  // namespace

@@ -12,23 +12,6 @@ namespace {
 // Share of the way from the inner to the outer hex at which a cap sits.
 constexpr double kCapHeight = 0.4;
 
-// Place of every hex on the finest lattice; caps refer to older hexes only.
-IdVector<HexId, Vec3> compute_places(const HexComplex& complex) {
-  IdVector<HexId, Vec3> places(complex.places.size());
-  for (HexId h : complex.places.ids()) {
-    const HexPlace& place = complex.places[h];
-    if (place.is_lattice()) {
-      for (int a = 0; a < 3; ++a) places[h][a] = place.point()[a];
-      continue;
-    }
-    const Vec3 inner = places[place.inner()], outer = places[place.outer()];
-    places[h] = inner;
-    for (int a = 0; a < 3; ++a)
-      if (place.outer_axes() >> a & 1) places[h][a] += kCapHeight * (outer[a] - inner[a]);
-  }
-  return places;
-}
-
 // At concave corners of the domain several hexes may share one place: it counts once.
 Vec3 mean_of_distinct(std::span<const HexCorner> star, const IdVector<HexId, Vec3>& places) {
   Vec3 sum;
@@ -96,6 +79,23 @@ void separate_chiral_corners(const Domain& domain, const VertToHex& vert_to_hex,
 }
 
 }  // namespace
+
+// Caps refer to older hexes only.
+IdVector<HexId, Vec3> compute_places(const HexComplex& complex) {
+  IdVector<HexId, Vec3> places(complex.places.size());
+  for (HexId h : complex.places.ids()) {
+    const HexPlace& place = complex.places[h];
+    if (place.is_lattice()) {
+      for (int a = 0; a < 3; ++a) places[h][a] = place.point()[a];
+      continue;
+    }
+    const Vec3 inner = places[place.inner()], outer = places[place.outer()];
+    places[h] = inner;
+    for (int a = 0; a < 3; ++a)
+      if (place.outer_axes() >> a & 1) places[h][a] += kCapHeight * (outer[a] - inner[a]);
+  }
+  return places;
+}
 
 FixedAxes place_verts(const Domain& domain, const HexComplex& complex, const VertToHex& vert_to_hex,
                       HexMesh& mesh) {

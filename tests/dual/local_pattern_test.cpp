@@ -49,6 +49,21 @@ TEST(LocalPattern, AllNodesAroundAVertexBySheets) {
   }
 }
 
+// Found by the random tests and minimised: caps of two pillows met along two edges.
+TEST(LocalPattern, CapsThatMeetAlongTwoEdges) {
+  SplitTree one_level(box_roots(2, 4, 4));
+  for (const LatticeCoord& n : {LatticeCoord{0, 0, 0}, {0, 1, 0}, {0, 2, 2}, {1, 0, 1}, {1, 3, 3}})
+    one_level.split(0, n);
+  EXPECT_EQ(find_dual_problem(one_level, DualMode::Sheets), "");
+
+  SplitTree two_levels(box_roots(4, 2, 2));
+  for (const LatticeCoord& n : {LatticeCoord{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {2, 0, 1}, {2, 1, 1}})
+    two_levels.split(0, n);
+  for (const LatticeCoord& n : {LatticeCoord{1, 3, 1}, {2, 3, 1}, {3, 3, 2}, {4, 1, 2}, {5, 3, 3}})
+    two_levels.split(1, n);
+  EXPECT_EQ(find_dual_problem(two_levels, DualMode::Sheets), "");
+}
+
 // Every union of the eight roots at a vertex, plain and with a block around the vertex. A block
 // right at a twisted corner is a known limit: the mesh conforms, but its elements may be inverted
 // there.
