@@ -1,6 +1,7 @@
 // The topology of the dual mesh: core planes, base mesh, pillows.
 #include "dual/build_complex.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dual/base_mesh.h"
@@ -79,23 +80,45 @@ bool split_leaf_at(const Vec3& point, std::vector<SplitNodes>& split, const Doma
   return false;
 }
 
-// Sheets mode alone: where two quads share two edges the cell they lie in is split instead, which
-// is rare (one random grid in a thousand), until none are left.
+// These vertices and all others of their hexes, in order.
+std::vector<VertId> with_neighbors(const HexComplex& complex, const std::vector<VertId>& verts) {
+  std::vector<VertId> all;
+  for (const auto& hex : complex.verts)
+    for (VertId v : hex)
+      if (std::binary_search(verts.begin(), verts.end(), v))
+        all.insert(all.end(), hex.begin(), hex.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+// Splits the leaves in which quads share two edges, or, where those are of the finest level, the
+// leaves around them. False when there is nothing to repair, or nothing left to split.
+bool repair(const HexComplex& complex, const Domain& domain, std::vector<SplitNodes>& split) {
+  const auto doubled = find_double_links(complex);
+  if (doubled.empty()) return false;
+  const auto split_at = [&](const std::vector<VertId>& verts) {
+    bool has_split = false;
+    for (const Vec3& point : mean_places(complex, verts))
+      has_split |= split_leaf_at(point, split, domain);
+    return has_split;
+  };
+  return split_at(doubled) || split_at(with_neighbors(complex, doubled));
+}
+
+// Paired grids of boxes never need a repair; in sheets mode one random grid in a thousand does.
 BaseStatus try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
   constexpr int kMaxRepairs = 20;
   const Domain domain(grid);
   auto split = collect_split_nodes(grid);
   complex.reserve(2 * grid.num_cells());
-  for (int repair = 0;; ++repair) {
-    choose_all_core_planes(split, domain, mode);
+  choose_all_core_planes(split, domain, mode);
+  for (int round = 0;; ++round) {
     const BaseStatus status = stack_pillows(domain, split, context, complex);
-    if (status != BaseStatus::Ok || mode == DualMode::Blocks || repair == kMaxRepairs)
-      return status;
-    const auto doubled = find_double_links(complex);
-    bool has_split = false;
-    for (const Vec3& point : mean_places(complex, doubled))
-      has_split |= split_leaf_at(point, split, domain);
-    if (!has_split) return status;
+    const bool is_safe = mode == DualMode::Blocks && domain.is_box();
+    if (status != BaseStatus::Ok || is_safe || round == kMaxRepairs) return status;
+    if (!repair(complex, domain, split)) return status;
+    choose_all_core_planes(split, domain, DualMode::Sheets);
   }
 }
 
