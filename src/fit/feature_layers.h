@@ -39,6 +39,8 @@ struct PillowOptions {
   bool whole_regions = true;  ///< pillow all of a region with squeezed quads; else only around them
   int ring = 1;               ///< vertex rings around squeezed quads, when not whole regions
   double corner_angle = 140 * std::numbers::pi / 180;  ///< radians
+  /// Squeezed corners at other vertices are left alone; empty = none are. One entry per vertex.
+  std::vector<char> is_wanted;
   double min_cosine = 0.02;  ///< least visibility of the sheet at each of its vertices
 };
 

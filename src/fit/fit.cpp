@@ -17,6 +17,7 @@
 #include "fit/keep_side.h"
 #include "fit/pad_boundary.h"
 #include "fit/pass_clock.h"
+#include "fit/pillow_failed.h"
 #include "fit/selective_padding.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
@@ -152,6 +153,10 @@ class Fitter {
     if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
     clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
     clock_.run("refit", 0.7, [&] { refit_stuck(a.state, target(), {}, context_); });
+    if (is_selective()) {
+      clock_.run("pillows", 0.8,
+                 [&] { pillow_failed_quads(a.state, a.marks, target(), {}, context_); });
+    }
     update_targets(a.state, target(), 0);
     a.verdicts = judge_curves(a.state, features_, a.mapping);
     return a;
@@ -159,7 +164,7 @@ class Fitter {
 
   bool is_selective() const {
     return options_.padding == Padding::Selective && !features_.empty() &&
-           options_.carve.side == Side::Inside;
+           options_.carve.side != Side::Both;
   }
 
   void map_and_pad(const FitState& carved, const FeatureMapOptions& map_options, Attempt& a) {
@@ -177,11 +182,9 @@ class Fitter {
   void fit_curves(Attempt& a) {
     const std::vector<double> weights = geometric_weights(3, 300, 5);
     run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
-    if (a.state.side == Side::Both)
-      return;  // a pillow would need its counterpart on the other side
-    PillowOptions pillow;
-    pillow.whole_regions = !is_selective();
-    if (pillow_squeezed_quads(a.state, a.marks, pillow).num_pillows == 0) return;
+    if (is_selective() || a.state.side == Side::Both)
+      return;  // pillows come later; with both sides each would need a counterpart
+    if (pillow_squeezed_quads(a.state, a.marks, {}).num_pillows == 0) return;
     a.state.update_sizes();
     run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, false}, context_);
   }

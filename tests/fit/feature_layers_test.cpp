@@ -3,6 +3,8 @@
 
 #include "boundary_fixtures.h"
 #include "fit/pad_boundary.h"
+#include "fit/pillow_failed.h"
+#include "fit/sweep.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -91,6 +93,37 @@ TEST_P(Pillow, AroundSqueezedQuadsKeepsTheMarks) {
   if (GetParam() < 0.5) {  // turned farther, almost every quad at a curve is squeezed
     EXPECT_LT(l.num_hexes, w.num_hexes);
   }
+}
+
+TEST_P(Pillow, OnlyAtWantedVertices) {
+  TurnedCube c(GetParam());
+  PillowOptions options;
+  options.whole_regions = false;
+  options.is_wanted.assign(c.state.num_verts(), 0);
+  FitState none = c.state;
+  FeatureMarks marks = c.attached.marks;
+  EXPECT_EQ(pillow_squeezed_quads(none, marks, options).num_pillows, 0u);
+  EXPECT_EQ(none.mesh.num_hexes(), c.state.mesh.num_hexes());
+  const MarkedGraph marked(c.state, c.attached.marks);
+  const QuadId q = find_squeezed_quads(c.state, marked, options.corner_angle).front();
+  for (VertId v : c.state.quads[q.index()]) options.is_wanted[v.index()] = 1;
+  const PillowReport one = pillow_squeezed_quads(c.state, c.attached.marks, options);
+  EXPECT_LE(one.num_pillows, 4u);
+  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+}
+
+TEST_P(Pillow, WhereTheFitFailedKeepsTheMeshValid) {
+  TurnedCube c(GetParam());
+  const FitTarget target{c.tree, &c.features};
+  run_schedule(c.state, target, {{0, 1, 0}, geometric_weights(1, 300, 5), 1, 0.03, true}, {});
+  const PillowReport report =
+      pillow_failed_quads(c.state, c.attached.marks, target, {0.5, 0.02, 2}, {});
+  EXPECT_GT(report.num_pillows, 0u);
+  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+  // Nothing has failed by a limit that everything meets: nothing happens.
+  const std::size_t num_hexes = c.state.mesh.num_hexes();
+  pillow_failed_quads(c.state, c.attached.marks, target, {0, 1e9, 2}, {});
+  EXPECT_EQ(c.state.mesh.num_hexes(), num_hexes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, Pillow, ::testing::Values(0.2, 0.4, 0.55, 0.7));

@@ -1,6 +1,7 @@
 // Selective padding: valid, consistently marked, and cheaper than a layer everywhere.
 #include "fit/selective_padding.h"
 
+#include "hexwright/fit/fit.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
@@ -107,6 +108,23 @@ TEST(SelectivePadding, UnitesRegionsAcrossConcaveCurves) {
   EXPECT_EQ(problem_of(result.state, result.marks), "");
   EXPECT_LT(result.report.num_groups, 8u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+}
+
+TEST(SelectivePadding, ServesTheOutsideToo) {
+  const TriMesh cube = turned_cube(0.4);
+  const SurfaceTree tree(cube);
+  FitOptions options;
+  options.carve.side = Side::Outside;
+  std::size_t num_hexes[2];
+  for (Padding padding : {Padding::Selective, Padding::Everywhere}) {
+    options.padding = padding;
+    const FitResult result = fit(test::box_hex_mesh(16, 16, 16), tree, options, {});
+    EXPECT_EQ(result.report.num_curves_mapped, 12u);
+    EXPECT_GT(min_jacobian(result.mesh), 0);
+    EXPECT_EQ(result.mesh.labels.corners.size(), 8u);
+    num_hexes[padding == Padding::Selective ? 0 : 1] = result.mesh.num_hexes();
+  }
+  EXPECT_LT(num_hexes[0], num_hexes[1]);
 }
 
 TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
