@@ -1,7 +1,6 @@
 // Pillows under squeezed quads, many at a time: sets that share no vertex go in together, so that
 // the adjacency is rebuilt once per batch.
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <tuple>
 
@@ -13,6 +12,7 @@ namespace hexwright::fitting {
 namespace {
 
 constexpr int kMaxBatches = 60;
+constexpr std::size_t kMaxJobs = 1 << 20;  // in a batch
 
 /// Jobs that were tried, by (vertex or none, region): ids that survive insertions.
 using Tried = std::set<std::pair<VertId, RegionId>>;
@@ -177,11 +177,12 @@ bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& opt
     report.num_pillows += batch.size();
     report.num_hexes += sheet.quads.size();
     tried.insert(keys.begin(), keys.end());
+    max_jobs = std::min(max_jobs, kMaxJobs / 2) * 2;
   } else if (batch.size() == 1) {
     ++report.num_skipped;
     tried.insert(keys.begin(), keys.end());
   } else {
-    max_jobs = 1;  // find the culprit
+    max_jobs = batch.size() / 2;  // find the culprit by halving
   }
   return true;
 }
@@ -192,7 +193,7 @@ PillowReport pillow_squeezed_quads(FitState& state, FeatureMarks& marks,
                                    const PillowOptions& options) {
   PillowReport report;
   Tried tried;
-  std::size_t max_jobs = std::numeric_limits<std::size_t>::max();
+  std::size_t max_jobs = kMaxJobs;
   for (int k = 0; k < kMaxBatches; ++k)
     if (!pillow_batch(state, marks, options, tried, max_jobs, report)) break;
   return report;
