@@ -27,6 +27,8 @@ namespace {
 
 using namespace fitting;
 
+constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
+
 // The first hex with a corner determinant that is not positive.
 HexId find_inverted(const HexMesh& mesh) {
   const auto quality = compute_scaled_jacobians(mesh);
@@ -50,7 +52,7 @@ std::vector<Miss> find_misses(const FitState& state) {
   for (VertId v : state.kind.ids()) {
     if (!state.is_boundary(v) || state.stars[v].empty()) continue;
     const double residual = state.residual(v);
-    if (residual > 0.02) misses.push_back({state.mesh.positions[v], residual * state.size[v]});
+    if (residual > kMiss) misses.push_back({state.mesh.positions[v], residual * state.size[v]});
   }
   std::stable_sort(misses.begin(), misses.end(),
                    [](const Miss& a, const Miss& b) { return a.distance > b.distance; });
@@ -95,9 +97,9 @@ class Fitter {
     clock_.run("find features", 0.35, [&] { find_features(scaffold); });
     Attempt result = fit_features(carved, scaffold);
     clock_.run("polish", 0.9, [&] { polish_worst(result.state, target(), {}, context_); });
-    clock_.run("snap", 0.95,
-               [&] { snap_to_targets(result.state, target(), options_.snap_quality); });
-    clock_.run("lift", 0.96, [&] { lift_worst(result.state, target(), {}, context_); });
+    clock_.run("snap", 0.93, [&] { snap_gently(result.state); });
+    clock_.run("lift", 0.95, [&] { lift_worst(result.state, target(), {}, context_); });
+    clock_.run("snap", 0.97, [&] { snap_misses(result.state); });
     clock_.run("prove", 0.98,
                [&] { report_.unproven = mend_unproven(result.state, target(), context_); });
     return conclude(std::move(result));
@@ -194,6 +196,26 @@ class Fitter {
     state.update_sizes();
     run_schedule(state, target(), {{0.9, 1, 0}, geometric_weights(300, 1e5, 4), 2, 0.015, false},
                  context_);
+  }
+
+  // Exactly onto the targets where quality hardly suffers ...
+  void snap_gently(FitState& state) {
+    snap_to_targets(state, target(), std::max(options_.snap_quality, 0.4));
+  }
+
+  // ... and down to the least quality allowed where the distance would otherwise count as a miss.
+  void snap_misses(FitState& state) {
+    update_targets(state, target(), 0);
+    std::vector<char> is_miss(state.num_verts(), 0);
+    bool any = false;
+    for (VertId v : state.kind.ids()) {
+      if (state.stars[v].empty() || !(state.residual(v) > kMiss)) continue;
+      is_miss[v.index()] = 1;
+      any = true;
+    }
+    if (!any) return;
+    snap_to_targets(state, target(), options_.snap_quality, is_miss);
+    lift_worst(state, target(), {}, context_);
   }
 
   FitResult conclude(Attempt result) {
