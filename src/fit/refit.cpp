@@ -41,10 +41,15 @@ void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& o
     if (!any) return;
     grow_vert_set(state, region, options.rings);
     const LocalSweep local(state, region);
+    for (VertId v : state.kind.ids())
+      if (region[v.index()]) state.is_dirty[v] = 1;
     for (double weight : {30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 1e5}) {
       context.check_cancelled();
       update_targets(state, target, 0, region);
-      for (int s = 0; s < 3; ++s) local.run(state, {options.shape, weight, 0.03});
+      // A new weight moves the boundary; the inside follows where the boundary moved.
+      for (VertId v : state.kind.ids())
+        if (region[v.index()] && state.is_boundary(v)) state.is_dirty[v] = 1;
+      for (int s = 0; s < 3; ++s) local.run_dirty(state, {options.shape, weight, 0.01});
     }
   }
 }

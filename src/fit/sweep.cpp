@@ -88,12 +88,23 @@ LocalSweep::LocalSweep(const FitState& state, const std::vector<char>& is_member
 }
 
 void LocalSweep::run(FitState& state, const SweepOptions& options) const {
+  run(state, options, false);
+}
+void LocalSweep::run_dirty(FitState& state, const SweepOptions& options) const {
+  run(state, options, true);
+}
+
+void LocalSweep::run(FitState& state, const SweepOptions& options, bool only_dirty) const {
   for (std::size_t c = 0; c + 1 < offset_.size(); ++c) {
     const std::size_t first = offset_[c];
     parallel_chunks(offset_[c + 1] - first, kVertsPerTask, [&](std::size_t begin, std::size_t end) {
       VertexNewton newton;
-      for (std::size_t i = begin; i < end; ++i)
-        solve_vertex(state, verts_[first + i], options, newton);
+      for (std::size_t i = begin; i < end; ++i) {
+        const VertId v = verts_[first + i];
+        if (only_dirty && !state.is_dirty[v]) continue;
+        state.is_dirty[v] = 0;
+        solve_vertex(state, v, options, newton);
+      }
     });
   }
 }

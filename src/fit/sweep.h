@@ -22,15 +22,19 @@ struct SweepOptions {
 /// threads.
 std::size_t sweep(FitState& state, const SweepOptions& options);
 
-/// Solves the given vertices once each, dirty or not.
+/// Solves the given vertices once each.
 class LocalSweep {
  public:
   /// `is_member`: one entry per vertex.
   LocalSweep(const FitState& state, const std::vector<char>& is_member);
   void run(FitState& state, const SweepOptions& options) const;
+  /// Those of them that are dirty.
+  void run_dirty(FitState& state, const SweepOptions& options) const;
   std::size_t num_verts() const { return verts_.size(); }
 
  private:
+  void run(FitState& state, const SweepOptions& options, bool only_dirty) const;
+
   std::vector<std::size_t> offset_;  // per colour
   std::vector<VertId> verts_;
 };
