@@ -40,7 +40,7 @@ class Repair {
       is_queued_[v] = 0;
       if (is_bad(v)) mend(v);
     }
-    for (VertId v : mesh_.positions.ids()) result_.num_bad_verts += is_bad(v);
+    empty_around_bad_verts();
     return result_;
   }
 
@@ -58,6 +58,19 @@ class Repair {
     });
     for (VertId v : mesh_.positions.ids())
       if (bad[v.index()]) push(v);
+  }
+
+  // What the queue could not mend is cut away. Ends, for the set shrinks in every round.
+  void empty_around_bad_verts() {
+    for (bool any = true; any;) {
+      any = false;
+      for (VertId v : mesh_.positions.ids()) {
+        if (!is_bad(v)) continue;
+        any = true;
+        ++result_.num_bad_verts;
+        for (const HexCorner& corner : vert_to_hex_[v]) in_set_[corner.hex.index()] = 0;
+      }
+    }
   }
 
   void push(VertId v) {

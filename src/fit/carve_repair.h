@@ -8,7 +8,7 @@ namespace hexwright::fitting {
 
 struct RepairResult {
   std::size_t num_flips = 0;      ///< hexes whose membership changed, counting repeats
-  std::size_t num_bad_verts = 0;  ///< vertices that could not be mended
+  std::size_t num_bad_verts = 0;  ///< vertices that could not be mended: their hexes were cut away
 };
 
 /// Deterministic. `in_set` is changed in place; `visible` is the least cosine of SetCheck::check.

@@ -92,7 +92,10 @@ class Fitter {
     report_.num_hexes_carved = carved.mesh.num_hexes();
     if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_)};
     FitState scaffold = carved;
-    clock_.run("pad", 0.2, [&] { pad_boundary(scaffold); });
+    clock_.run("pad", 0.2, [&] {
+      if (!pad_boundary(scaffold))
+        context_.warn("no layer fits under the mesh's boundary; it is fitted without padding");
+    });
     clock_.run("fit1", 0.25, [&] { fit_smooth(scaffold, false); });
     clock_.run("find features", 0.35, [&] { find_features(scaffold); });
     Attempt result = fit_features(carved, scaffold);

@@ -2,7 +2,7 @@
 // that see all faces around them, so that a thin enough layer is always valid.
 #include "fit/pad_boundary.h"
 
-#include "hexwright/base/error.h"
+#include <optional>
 
 #include "fit/insert_sheet.h"
 #include "fit/set_check.h"
@@ -11,8 +11,9 @@ namespace hexwright::fitting {
 
 namespace {
 
-// The sheet along the faces between the hexes `takes_copy` and what is beyond them.
-Sheet make_sheet(const FitState& state, const std::vector<char>& takes_copy) {
+// The sheet along the faces between the hexes `takes_copy` and what is beyond them; absent when
+// some vertex's faces cannot be seen from any direction.
+std::optional<Sheet> make_sheet(const FitState& state, const std::vector<char>& takes_copy) {
   SetCheck check(state.mesh, state.vert_to_hex, state.neighbors, true);
   Sheet sheet;
   for (HexFace face : state.quad_face) {
@@ -28,34 +29,32 @@ Sheet make_sheet(const FitState& state, const std::vector<char>& takes_copy) {
   sheet.verts = sheet_verts(sheet.quads);
   for (VertId v : sheet.verts) {
     const VisibleDirection visible = check.direction(v, takes_copy);
-    if (!(visible.cosine > 0)) {
-      throw Error(ErrorCode::BadGeometry,
-                  "no direction sees all boundary faces around the vertex; thicken the mesh there "
-                  "or carve it anew",
-                  "vertex " + std::to_string(v.value()));
-    }
+    if (!(visible.cosine > 0)) return {};
     sheet.directions.push_back(visible.direction);
   }
   return sheet;
 }
 
-void pad_hexes(FitState& state, const std::vector<char>& takes_copy) {
-  const Sheet sheet = make_sheet(state, takes_copy);
-  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, sheet, takes_copy, 1e-7);
-  if (copies.empty() && !sheet.quads.empty())
-    throw Error(ErrorCode::BadGeometry, "the boundary layer cannot be made thin enough");
+bool pad_hexes(FitState& state, const std::vector<char>& takes_copy) {
+  const auto sheet = make_sheet(state, takes_copy);
+  if (!sheet) return false;
+  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, *sheet, takes_copy, 1e-7);
+  if (copies.empty() && !sheet->quads.empty()) return false;
   state.rebuild();
+  return true;
 }
 
 }  // namespace
 
-void pad_boundary(FitState& state) {
+bool pad_boundary(FitState& state) {
   if (state.side != Side::Both)
     return pad_hexes(state, std::vector<char>(state.mesh.num_hexes(), 1));
-  pad_hexes(state, state.inside_hexes());
-  std::vector<char> outside = state.inside_hexes();
-  for (char& x : outside) x = !x;
-  pad_hexes(state, outside);
+  std::vector<char> half = state.inside_hexes();
+  const bool inside = pad_hexes(state, half);
+  half = state.inside_hexes();
+  for (char& x : half) x = !x;
+  const bool outside = pad_hexes(state, half);
+  return inside && outside;
 }
 
 }  // namespace hexwright::fitting

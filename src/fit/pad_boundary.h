@@ -6,8 +6,9 @@
 namespace hexwright::fitting {
 
 /// The vertices of the quads to be fitted stay; the hexes behind them (on both sides with
-/// Side::Both) take copies. Throws Error{BadGeometry} when no layer, however thin, has positive
-/// corner determinants everywhere (cannot happen on what carve keeps). Rebuilds the state.
-void pad_boundary(FitState& state);
+/// Side::Both) take copies. Rebuilds the state. False, with the side left as it was, when no layer,
+/// however thin, has positive corner determinants everywhere: possible on foreign meshes, not on
+/// what carve keeps.
+bool pad_boundary(FitState& state);
 
 }  // namespace hexwright::fitting
