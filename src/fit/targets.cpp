@@ -27,7 +27,12 @@ class SurfaceMatcher {
         x_(state.mesh.positions[v]),
         normal_(normal),
         h_(state.size[v]),
-        patch_(state.patch[v]) {}
+        patch_(state.patch[v]) {
+    // The last target bounds the search: it is on the surface, mostly still on the right side of
+    // it.
+    if (state.direction[v] != Vec3{})
+      bound_ = (1 + 1e-6) * hexwright::distance(x_, state.target[v]) + 1e-9 * h_;
+  }
 
   std::optional<ClosestPoint> find() const {
     auto best = patch_.is_valid() ? find_on_patch() : std::nullopt;
@@ -57,7 +62,8 @@ class SurfaceMatcher {
 
   // With the normal filter unless that is much farther than without.
   std::optional<ClosestPoint> find_filtered(double min_cosine, PatchId patch, double slack) const {
-    const auto facing = query(min_cosine, patch);
+    auto facing = query(min_cosine, patch, bound_);
+    if (!facing && std::isfinite(bound_)) facing = query(min_cosine, patch);
     if (facing && distance(*facing) <= 0.5 * h_) return facing;
     const auto any = query(-2, patch);
     if (!facing) return any;
@@ -69,6 +75,7 @@ class SurfaceMatcher {
   Vec3 x_, normal_;
   double h_;
   PatchId patch_;
+  double bound_ = std::numeric_limits<double>::infinity();
 };
 
 void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal) {
