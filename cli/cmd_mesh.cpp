@@ -67,6 +67,10 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
   add_sizing_options(*sub, cmd->options.sizing);
+  // A level asked for binds the loop too.
+  sub->get_option("--max-level")->each([cmd](const std::string&) {
+    cmd->options.loop_extra_levels = 0;
+  });
   sub->add_flag("--no-loop", cmd->no_loop,
                 "A single pass with a stricter a-priori sizing, instead of refining where the fit "
                 "missed");

@@ -30,6 +30,7 @@ Json describe_options(const MeshOptions& o) {
           {"margin", o.sizing.margin},
           {"min_level", o.sizing.min_level},
           {"max_level", o.sizing.max_level},
+          {"loop_extra_levels", o.loop_extra_levels},
           {"max_cells", o.sizing.max_cells},
           {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
           {"balance", o.complete.balance == Balance::Strong    ? "strong"

@@ -104,7 +104,9 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   if (round.verdict.distance) points = round.verdict.distance->hot;
   const auto& lost = round.fit.report.carve.lost;
   points.insert(points.end(), lost.begin(), lost.end());
-  return mark_cells_with_points(round.grid, points, input.options.sizing.max_level);
+  const int deepest =
+      std::min(input.options.sizing.max_level + input.options.loop_extra_levels, kMaxGridLevel);
+  return mark_cells_with_points(round.grid, points, deepest);
 }
 
 }  // namespace hexwright
