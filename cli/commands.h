@@ -21,6 +21,7 @@ enum ExitCode : int {
 struct Program {
   Console console;
   int exit_code = Valid;
+  std::string executable;  ///< as called
 };
 
 void add_mesh_command(CLI::App& app, Program& program);
@@ -32,6 +33,8 @@ void add_improve_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_picture_command(CLI::App& app, Program& program);
+void add_bench_command(CLI::App& app, Program& program);
+void add_bench_one_command(CLI::App& app, Program& program);
 void add_polycube_command(CLI::App& app, Program& program);
 
 }  // namespace hexwright::cli

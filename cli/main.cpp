@@ -45,10 +45,13 @@ void add_commands(CLI::App& app, Program& program) {
   add_convert_command(app, program);
   add_picture_command(app, program);
   add_polycube_command(app, program);
+  add_bench_command(app, program);
+  add_bench_one_command(app, program);
 }
 
 int run(int argc, char** argv) {
   Program program;
+  program.executable = argv[0];
   CLI::App app("Adaptive all-hexahedral meshing", "hexwright");
   add_commands(app, program);
   try {

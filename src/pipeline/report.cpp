@@ -165,6 +165,9 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
   return to_text(report);
 }
 
+std::string mesh_options_to_json(const MeshOptions& options) {
+  return to_text(describe_options(options));
+}
 std::string sizing_to_json(const SizingResult& sizing) { return to_text(describe_sizing(sizing)); }
 std::string complete_to_json(const CompleteReport& complete) {
   return to_text(describe_complete(complete));

@@ -18,6 +18,9 @@ struct RunInfo {
 std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                            const RunInfo& run);
 
+/// The options as one JSON object, as the report has them.
+std::string mesh_options_to_json(const MeshOptions& options);
+
 /// The parts of the report that the single stages write.
 std::string sizing_to_json(const SizingResult& sizing);
 std::string complete_to_json(const CompleteReport& complete);

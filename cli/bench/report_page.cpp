@@ -1,0 +1,74 @@
+#include "bench/report_page.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "hexwright/version.h"
+
+#include "bench/page_files.h"
+#include "bench/summary.h"
+
+namespace hexwright::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string to_base64(std::string_view bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+/// A picture as a data URL; empty when the file is gone.
+std::string inline_picture(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return {};
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  return "data:image/png;base64," + to_base64(bytes);
+}
+
+/// JSON inside a script element must not close it.
+std::string for_script(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
+    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return text;
+}
+
+void replace(std::string& page, std::string_view mark, std::string_view text) {
+  const std::size_t at = page.find(mark);
+  if (at != std::string::npos) page.replace(at, mark.size(), text);
+}
+
+}  // namespace
+
+std::string make_report_page(const std::vector<Json>& records, const fs::path& out) {
+  Json models = Json::array();
+  for (Json record : records) {
+    if (record.contains("pictures"))
+      for (auto& picture : record["pictures"])
+        picture = inline_picture(out / picture.get<std::string>());
+    models.push_back(std::move(record));
+  }
+  const Json data = {
+      {"version", HEXWRIGHT_VERSION}, {"summary", summarize(records)}, {"models", models}};
+  std::string page(kReportHtml);
+  replace(page, "/*STYLE*/", kReportCss);
+  replace(page, "/*LIBRARY*/", kChartJs);
+  replace(page, "/*DATA*/", for_script(data));
+  replace(page, "/*SCRIPT*/", kReportJs);
+  return page;
+}
+
+}  // namespace hexwright::cli

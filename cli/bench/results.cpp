@@ -1,0 +1,105 @@
+#include "bench/results.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/io/atomic_file.h"
+
+#include "options.h"
+
+namespace hexwright::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kSurfaceExtensions = {".obj", ".off", ".stl", ".ply"};
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error(ErrorCode::CannotOpen, "cannot be read", file.string());
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash(std::string_view text, std::uint64_t state = 0xcbf29ce484222325u) {
+  for (const char c : text) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return state;
+}
+
+}  // namespace
+
+std::vector<BenchModel> find_models(const fs::path& folder, const std::string& fingerprint) {
+  if (!fs::is_directory(folder))
+    throw Error(ErrorCode::CannotOpen, "is not a folder of models", folder.string());
+  std::vector<BenchModel> models;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || !has_extension(entry.path().string(), kSurfaceExtensions))
+      continue;
+    const std::uint64_t key = hash(read_text(entry.path()), hash(fingerprint));
+    models.push_back({entry.path(), fs::relative(entry.path(), folder).generic_string(),
+                      fmt::format("{:016x}", key)});
+  }
+  std::sort(models.begin(), models.end(),
+            [](const BenchModel& a, const BenchModel& b) { return a.name < b.name; });
+  return models;
+}
+
+fs::path record_file(const fs::path& out, const std::string& name) {
+  return out / "records" / (name + ".json");
+}
+
+fs::path picture_file(const fs::path& out, const std::string& name, const std::string& part) {
+  return out / "pictures" / (name + "." + part + ".png");
+}
+
+Json load_record(const fs::path& out, const BenchModel& model) {
+  const fs::path file = record_file(out, model.name);
+  if (!fs::exists(file)) return {};
+  Json record = Json::parse(read_text(file), nullptr, false);
+  if (!record.is_object() || record.value("key", "") != model.key) return {};
+  return record;
+}
+
+bool is_finished(const Json& record) {
+  return record.is_object() && record.value("status", kRunning) != kRunning;
+}
+
+void save_record(const fs::path& out, const std::string& name, const Json& record) {
+  const fs::path file = record_file(out, name);
+  fs::create_directories(file.parent_path());
+  write_file_atomically(file, record.dump() + "\n");
+}
+
+std::vector<Json> load_results(const fs::path& folder_or_file) {
+  const fs::path file =
+      fs::is_directory(folder_or_file) ? folder_or_file / "results.jsonl" : folder_or_file;
+  std::ifstream stream(file);
+  if (!stream)
+    throw Error(ErrorCode::CannotOpen, "cannot be read; give a result folder of 'hexwright bench'",
+                file.string());
+  std::vector<Json> records;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (line.empty()) continue;
+    Json record = Json::parse(line, nullptr, false);
+    if (!record.is_object() || !record.contains("model"))
+      throw Error(ErrorCode::BadFile, "is not a record of 'hexwright bench'",
+                  fmt::format("{}:{}", file.string(), number));
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+void save_results(const fs::path& out, const std::vector<Json>& records) {
+  std::string lines;
+  for (const Json& record : records) lines += record.dump() + "\n";
+  write_file_atomically(out / "results.jsonl", lines);
+}
+
+}  // namespace hexwright::cli
