@@ -65,6 +65,7 @@ void Console::print(std::string_view line) {
   if (is_quiet) return;
   clear_progress();
   fmt::print("{}\n", line);
+  std::fflush(stdout);  // progress lines of a long run are read as they come
 }
 
 void Console::warn(std::string_view message) {

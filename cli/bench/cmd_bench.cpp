@@ -121,8 +121,9 @@ void evaluate_folder(const BenchCommand& cmd, Program& program) {
 }
 
 void compare_folders(const BenchCommand& cmd, Program& program) {
-  const Comparison comparison =
-      compare_results(load_results(cmd.compared[0]), load_results(cmd.compared[1]), cmd.tolerances);
+  const std::vector<Json> before = load_results(cmd.compared[0]);
+  const std::vector<Json> after = load_results(cmd.compared[1]);
+  const Comparison comparison = compare_results(before, after, cmd.tolerances);
   program.console.print(comparison.text);
   for (const std::string& regression : comparison.regressions) program.console.fail(regression);
   if (comparison.regressions.empty()) program.console.print("no regression");
