@@ -92,46 +92,55 @@ std::vector<VertId> with_neighbors(const HexComplex& complex, const std::vector<
   return all;
 }
 
-// Splits the leaves in which quads share two edges, or, where those are of the finest level, the
-// leaves around them. False when there is nothing to repair, or nothing left to split.
-bool repair(const HexComplex& complex, const Domain& domain, std::vector<SplitNodes>& split) {
+// What to do about quads that share two edges.
+enum class Repair { NotNeeded, Split, Impossible };
+
+// Splits the leaves in which they lie or, where those are of the finest level, the leaves around
+// them.
+Repair repair(const HexComplex& complex, const Domain& domain, std::vector<SplitNodes>& split) {
   const auto doubled = find_double_links(complex);
-  if (doubled.empty()) return false;
+  if (doubled.empty()) return Repair::NotNeeded;
   const auto split_at = [&](const std::vector<VertId>& verts) {
     bool has_split = false;
     for (const Vec3& point : mean_places(complex, verts))
       has_split |= split_leaf_at(point, split, domain);
     return has_split;
   };
-  return split_at(doubled) || split_at(with_neighbors(complex, doubled));
+  const bool has_split = split_at(doubled) || split_at(with_neighbors(complex, doubled));
+  return has_split ? Repair::Split : Repair::Impossible;
 }
 
 // Paired grids of boxes never need a repair; in sheets mode one random grid in a thousand does.
-BaseStatus try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
+// False when these roots cannot carry a valid mesh.
+bool try_build(const Grid& grid, DualMode mode, const Context& context, HexComplex& complex) {
   constexpr int kMaxRepairs = 20;
   const Domain domain(grid);
   auto split = collect_split_nodes(grid);
   complex.reserve(2 * grid.num_cells());
   choose_all_core_planes(split, domain, mode);
-  for (int round = 0;; ++round) {
-    const BaseStatus status = stack_pillows(domain, split, context, complex);
-    const bool is_safe = mode == DualMode::Blocks && domain.is_box();
-    if (status != BaseStatus::Ok || is_safe || round == kMaxRepairs) return status;
-    if (!repair(complex, domain, split)) return status;
+  for (int round = 0; round < kMaxRepairs; ++round) {
+    if (stack_pillows(domain, split, context, complex) != BaseStatus::Ok) return false;
+    if (mode == DualMode::Blocks && domain.is_box()) return true;
+    const Repair result = repair(complex, domain, split);
+    if (result != Repair::Split) return result == Repair::NotNeeded;
     choose_all_core_planes(split, domain, DualMode::Sheets);
   }
+  return false;
 }
 
 }  // namespace
 
+// Domains one root thick, and the rare refined corners that nothing else repairs, are meshed on the
+// lattice of half their roots; on the finest lattice at last, which always works.
 HexComplex build_complex(const Grid& grid, DualMode mode, const Context& context, Grid& used_grid) {
   if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
   HexComplex complex;
   used_grid = grid;
-  if (try_build(grid, mode, context, complex) == BaseStatus::Ok) return complex;
-  used_grid = split_roots(grid);
-  if (try_build(used_grid, mode, context, complex) == BaseStatus::TooThin)
-    throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");
+  for (int halvings = 0; !try_build(used_grid, mode, context, complex); ++halvings) {
+    if (halvings > grid.finest_level)
+      throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");
+    used_grid = split_roots(used_grid);
+  }
   return complex;
 }
 

@@ -61,7 +61,7 @@ class PositionOptimizer {
       measure();
       untangle = std::max(0.7 * untangle, 0.01);
     }
-    return !activate(0, 1);
+    return !activate(kPositive, 1);
   }
 
   // Lets the boundary vertices of inverted hexes leave the boundary: some corners where the domain
@@ -69,7 +69,7 @@ class PositionOptimizer {
   std::size_t free_inverted() {
     std::size_t num_freed = 0;
     for (HexId h : mesh_.hexes.ids()) {
-      if (quality_[h] > 0) continue;
+      if (quality_[h] >= kPositive) continue;
       for (VertId v : mesh_.hexes[h]) {
         num_freed += goals_[v].move != MoveIn::Space;
         goals_[v].move = MoveIn::Space;
@@ -89,6 +89,7 @@ class PositionOptimizer {
 
  private:
   static constexpr int kSweepsPerRound = 3;
+  static constexpr double kPositive = 1e-3;  // below: inverted, or flat but for rounding
 
   VertexGoal goal_of(VertId v, int fixed_axes) const {
     VertexGoal goal;
