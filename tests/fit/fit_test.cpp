@@ -7,6 +7,7 @@
 #include "hexwright/quality/hex_topology.h"
 #include "hexwright/quality/surface_distance.h"
 
+#include "fit/finish.h"
 #include "fit/pad_boundary.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
@@ -102,6 +103,45 @@ std::size_t count_box_quads(const HexMesh& mesh, const Box3& box) {
       }
   }
   return count;
+}
+
+TEST(Fit, TakesAMeshThatAlreadyStandsForTheObject) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
+  HexMesh cube = test::box_hex_mesh(6, 6, 6);
+  for (Vec3& p : cube.positions) p = 0.28 * (p - Vec3{3, 3, 3});
+  FitOptions options;
+  options.do_carve = false;
+  const FitResult result = fit(cube, sphere, options, {});
+  EXPECT_EQ(result.mesh.num_hexes(), 216u + 6 * 36u);  // one layer under its boundary
+  EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.3);
+  EXPECT_LT(measure_distance(result.mesh, sphere, {}).max_two_way(), 0.02);
+}
+
+// Four of the eight hexes around a vertex in a screw: their faces there look up, down and sideways,
+// and no direction sees all of them.
+TEST(PadBoundary, LeavesAMeshAloneWhereNoLayerFits) {
+  std::vector<char> in_screw(8, 0);
+  for (std::size_t h : {0u, 1u, 3u, 7u}) in_screw[h] = 1;
+  const HexMesh screw = extract_hexes(test::box_hex_mesh(2, 2, 2), in_screw);
+  ASSERT_TRUE(check_topology(screw).is_valid());
+  FitState state(screw);
+  EXPECT_FALSE(pad_boundary(state));
+  EXPECT_EQ(state.mesh.hexes, screw.hexes);
+  EXPECT_EQ(state.mesh.positions, screw.positions);
+}
+
+TEST(Lift, RaisesTheLeastWithoutLeavingTheSurface) {
+  const SurfaceTree torus(test::torus_surface(1, 0.4, 60, 30));
+  const HexMesh grid = test::grid_around(torus.box(), 0.16);
+  FitState state(extract_hexes(grid, carve(grid, torus, {}, {}).is_kept));
+  ASSERT_TRUE(pad_boundary(state));
+  const FitTarget target{torus, nullptr};
+  run_schedule(state, target, {{0, 1, 0}, geometric_weights(1, 1e5, 10), 2, 0.03, false}, {});
+  snap_to_targets(state, target, 0.2);
+  const double before = summarize_quality(state.mesh).min_scaled_jacobian;
+  lift_worst(state, target, {1.0, 12, 1e-4}, {});
+  EXPECT_GT(summarize_quality(state.mesh).min_scaled_jacobian, before + 0.01);
+  for (VertId v : state.kind.ids()) EXPECT_LT(state.residual(v), 0.02);
 }
 
 TEST(Fit, MeshesTheOutsideInAnUnchangedBox) {
