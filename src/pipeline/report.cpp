@@ -13,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};
 
