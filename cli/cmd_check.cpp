@@ -43,7 +43,7 @@ void check_grid(const CheckCommand& cmd, Program& program) {
 }
 
 Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
-  const Context context = program.console.start();
+  const Context context = program.console.start(cmd.surface);
   JudgeOptions options;
   if (cmd.surface.empty()) {
     options.features = cmd.features;
@@ -52,8 +52,6 @@ Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& progra
   const TriMesh surface = load_surface(cmd.surface, program);
   PreparedSurface prepared =
       naming_file(cmd.surface, [&] { return prepare_surface(surface, context); });
-  for (const std::string& w : prepared.diagnosis.warnings)
-    program.console.warn(cmd.surface + ": " + w);
   options.features = features_for_sizing(cmd.features, bounding_box(prepared.mesh).diagonal());
   return judge(mesh, SurfaceTree(std::move(prepared.mesh)), options, context);
 }

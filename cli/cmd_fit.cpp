@@ -26,13 +26,11 @@ struct FitCommand {
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture});
   require_extension(cmd.output, hex_mesh_extensions());
-  const Context context = program.console.start();
+  const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
   const SurfaceTree tree = naming_file(cmd.surface, [&] {
     PreparedSurface prepared = prepare_surface(surface, context);
-    for (const std::string& w : prepared.diagnosis.warnings)
-      program.console.warn(cmd.surface + ": " + w);
     return SurfaceTree(std::move(prepared.mesh));
   });
   FitOptions options = cmd.options;

@@ -24,14 +24,12 @@ struct GridCommand {
 void run(const GridCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report});
   require_extension(cmd.output, grid_extensions());
-  const Context context = program.console.start();
+  const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
   const SizingResult result = naming_file(cmd.input, [&] {
     const PreparedSurface prepared = prepare_surface(surface, context);
-    for (const std::string& w : prepared.diagnosis.warnings)
-      program.console.warn(cmd.input + ": " + w);
     const double diagonal = bounding_box(prepared.mesh).diagonal();
     const FeatureGraph features =
         extract_features(prepared.mesh, features_for_sizing(options.fit.features, diagonal));

@@ -36,7 +36,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 void run(const MeshCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid});
   require_extension(cmd.output, hex_mesh_extensions());
-  const Context context = program.console.start();
+  const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
@@ -54,7 +54,6 @@ void run(const MeshCommand& cmd, Program& program) {
     write_file_atomically(cmd.report,
                           report_to_json(result, options, {cmd.input, cmd.output, num_threads()}));
   if (result.mesh.num_hexes() > 0) print_summary(cmd, result, program.console);
-  for (const std::string& w : result.warnings) program.console.warn(cmd.input + ": " + w);
   for (const std::string& f : result.failures) program.console.fail(cmd.input + ": " + f);
   program.exit_code = result.failures.empty() ? Valid : FailsGate;
 }

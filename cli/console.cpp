@@ -32,11 +32,13 @@ void install_interrupt_handler() {
   std::signal(SIGTERM, on_interrupt);
 }
 
-Context Console::start() {
+Context Console::start(std::string about) {
   limit_ = std::make_unique<ThreadLimit>(num_threads);
   Context context;
   context.cancel = &interrupted;
-  context.on_warning = [this](std::string_view message) { warn(message); };
+  context.on_warning = [this, about = std::move(about)](std::string_view message) {
+    warn(about.empty() ? std::string(message) : fmt::format("{}: {}", about, message));
+  };
   if (!is_quiet && is_terminal())
     context.on_progress = [this](std::string_view stage, double fraction) {
       show_progress(stage, fraction);

@@ -18,7 +18,8 @@ class Console {
 
   /// A context whose progress goes to a bar (on a terminal only), whose warnings are printed, and
   /// which an interrupt cancels. Limits the threads as asked while the console lives.
-  Context start();
+  /// `about` is the file that warnings name.
+  Context start(std::string about = {});
 
   void print(std::string_view line);    ///< a result line, unless quiet
   void warn(std::string_view message);  ///< "warning: ..."

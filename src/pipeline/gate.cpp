@@ -28,24 +28,27 @@ void judge_distance(const RoundInput& input, MeshResult& result) {
   const bool is_gated = input.options.sizing.sizing == Sizing::Deviation &&
                         input.options.fit.carve.side == Side::Inside &&
                         distance > kGateFactor * tolerance;
-  auto& list = is_gated ? result.failures : result.warnings;
-  list.push_back(
+  const std::string message =
       fmt::format("the mesh departs from the surface by up to {:.3g}% of the diagonal, {} {:.3g}%",
                   100 * distance, is_gated ? "more than the gate's" : "more than the tolerance of",
-                  100 * (is_gated ? kGateFactor * tolerance : tolerance)));
+                  100 * (is_gated ? kGateFactor * tolerance : tolerance));
+  if (is_gated)
+    result.failures.push_back(message);
+  else
+    input.context.warn(message);
 }
 
-void judge_quality(const RoundInput& input, MeshResult& result) {
+void judge_quality(const RoundInput& input, const MeshResult& result) {
   const QualitySummary& q = result.verdict.quality;
   if (q.num_inverted == 0 && q.min_scaled_jacobian < input.options.min_quality)
-    result.warnings.push_back(fmt::format("the least scaled Jacobian is {:.3f}, below {:.2f}",
-                                          q.min_scaled_jacobian, input.options.min_quality));
+    input.context.warn(fmt::format("the least scaled Jacobian is {:.3f}, below {:.2f}",
+                                   q.min_scaled_jacobian, input.options.min_quality));
 }
 
-void judge_features(MeshResult& result) {
+void judge_features(const RoundInput& input, const MeshResult& result) {
   const FitReport& f = result.fit;
   if (f.num_curves_mapped < f.num_curves)
-    result.warnings.push_back(fmt::format(
+    input.context.warn(fmt::format(
         "{} of {} feature curves ({:.1f}% of their length) are not represented by mesh edges",
         f.num_curves - f.num_curves_mapped, f.num_curves,
         f.curve_length > 0 ? 100 * (1 - f.curve_length_mapped / f.curve_length) : 0.0));
@@ -55,13 +58,12 @@ void judge_features(MeshResult& result) {
 
 void apply_gate(const RoundInput& input, MeshResult& result) {
   result.failures = result.verdict.failures;
-  result.warnings.insert(result.warnings.end(), result.verdict.warnings.begin(),
-                         result.verdict.warnings.end());
+  for (const std::string& w : result.verdict.warnings) input.context.warn(w);
   if (result.mesh.num_hexes() == 0) return;
   judge_topology(input, result);
   judge_distance(input, result);
   judge_quality(input, result);
-  judge_features(result);
+  judge_features(input, result);
 }
 
 }  // namespace hexwright

@@ -17,6 +17,9 @@
 namespace hexwright {
 namespace {
 
+/// Rounds without an improvement after which the loop ends: what still misses is out of its reach.
+constexpr int kPatience = 3;
+
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
   options.judge.features = features_for_sizing(options.fit.features, diagonal);
@@ -57,7 +60,7 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
                               completed.grid.num_cells(), input.options.max_hexes,
                               result.sizing.reached_level));
     sizing.max_level = result.sizing.reached_level - 1;
-    result.warnings.push_back(fmt::format(
+    input.context.warn(fmt::format(
         "the grid would have {} cells, more than the budget of {}: its levels end at {} instead "
         "of {}",
         completed.grid.num_cells(), input.options.max_hexes, sizing.max_level,
@@ -83,7 +86,7 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
         complete(split_cells(current.grid, marks), options.complete, input.context);
     const std::size_t num_cells = next.grid.num_cells();
     if (num_cells > options.max_hexes || total_hexes + num_cells > options.max_loop_hexes) {
-      result.warnings.push_back(fmt::format(
+      input.context.warn(fmt::format(
           "refinement stops after round {}: the next grid has {} cells, beyond the budget of {} "
           "per round or {} over all rounds",
           result.num_rounds, num_cells, options.max_hexes, options.max_loop_hexes));
@@ -95,6 +98,9 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
     if (is_better(input, current, best)) {
       best = current;
       result.best_round = result.num_rounds;
+    } else if (result.num_rounds - result.best_round >= kPatience) {
+      result.rounds.push_back(current.record);
+      break;
     }
   }
   return best;
@@ -131,8 +137,10 @@ void map_to_world(const Similarity& frame, MeshResult& result) {
 }
 
 /// Rounding to the input's coordinates can undo validity when the model is far from the origin.
-void check_after_mapping(MeshResult& result) {
-  const std::size_t num_inverted = summarize_quality(result.mesh).num_inverted;
+void check_after_mapping(const Similarity& frame, MeshResult& result) {
+  HexMesh unit = result.mesh;  // judged at unit scale: squares of huge or tiny ones overflow
+  for (Vec3& p : unit.positions) p = frame.to_unit(p);
+  const std::size_t num_inverted = summarize_quality(unit).num_inverted;
   if (result.verdict.quality.num_inverted == 0 && num_inverted > 0)
     result.failures.push_back(fmt::format(
         "{} hexes are inverted only by rounding to the input's coordinates, which are too far "
@@ -150,17 +158,28 @@ void take_round(Round&& round, MeshResult& result) {
   for (StageRecord& stage : round.stages) result.stages.push_back(std::move(stage));
 }
 
+/// Passes everything on, and keeps each warning once.
+Context collect_warnings(const Context& caller, std::vector<std::string>& warnings) {
+  Context context = caller;
+  context.on_warning = [&caller, &warnings](std::string_view message) {
+    if (std::find(warnings.begin(), warnings.end(), message) != warnings.end()) return;
+    warnings.emplace_back(message);
+    caller.warn(message);
+  };
+  return context;
+}
+
 }  // namespace
 
-MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const Context& context) {
+MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const Context& caller) {
   const Stopwatch clock;
   MeshResult result;
+  const Context context = collect_warnings(caller, result.warnings);
 
   // Clean and orient, then normalise position and scale.
   PreparedSurface prepared = run_stage(result.stages, "prepare", context,
                                        [&] { return prepare_surface(surface, context); });
   result.surface = std::move(prepared.diagnosis);
-  result.warnings = result.surface.warnings;
   result.stages.back().counts["triangles"] = static_cast<double>(prepared.mesh.num_tris());
   const Similarity frame = compute_unit_frame(prepared.mesh);
   prepared.mesh = to_unit(prepared.mesh, frame);
@@ -183,7 +202,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
 
   apply_gate(input, result);
   map_to_world(frame, result);
-  check_after_mapping(result);
+  check_after_mapping(frame, result);
   result.seconds = clock.seconds();
   return result;
 }

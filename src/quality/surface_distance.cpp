@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/function_ref.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
@@ -23,16 +24,50 @@ constexpr std::size_t kGrain = 1024;
 // rounding.
 constexpr double kSlack = 1 + 1e-9;
 
+/// Samples nearer than this share of the diagonal always count: only far ones are worth a test.
+constexpr double kTrustedDistance = 0.001;
+/// How far to both sides of the surface the solid is probed, as a share of the diagonal.
+constexpr double kProbeStep = 1e-6;
+
 struct Target {
   const SurfaceTree& tree;
   double hot_distance = 0;  // infinity when hot samples are not wanted
+  // Says that a sample far from the target is right to be there.
+  FunctionRef<bool(const Vec3& p, double distance)> is_excused;
+  double trusted_distance = 0;
 };
+
+/// Whether the solid's boundary runs between the points at `step` on both sides of p along a
+/// normal.
+bool is_between(const SurfaceTree& solid, const Vec3& p, const Vec3& normal, double step) {
+  return solid.is_inside(p - normal * step) != solid.is_inside(p + normal * step);
+}
+
+/// Whether the surface bounds the solid at its point p. Probed a little inside the triangle: at a
+/// sharp edge or apex the points on both sides of p itself may lie outside.
+bool is_solid_boundary(const SurfaceTree& surface, const Vec3& p, double diagonal) {
+  const auto at = surface.closest(p);
+  if (!at) return false;
+  const auto c = surface.surface().corners(at->tri);
+  const Vec3 inward = (c[0] + c[1] + c[2]) / 3 - p;
+  const double length = norm(inward);
+  const double shift = std::min(0.5, length > 0 ? kTrustedDistance * diagonal / length : 0);
+  return is_between(surface, p + inward * shift, surface.normal(at->tri), kProbeStep * diagonal);
+}
+
+/// Whether the winding number passes 1/2 nearer to the boundary's point p than any surface, at d:
+/// there it closes a hole.
+bool is_closing_hole(const SurfaceTree& boundary, const SurfaceTree& solid, const Vec3& p,
+                     double d) {
+  const auto at = boundary.closest(p);
+  return at && is_between(solid, p, boundary.normal(at->tri), 0.9 * d);
+}
 
 // What one chunk of samples finds; chunks are combined from left to right.
 struct Partial {
   double max = -1;
   Vec3 worst;
-  double weighted_sum = 0, weight = 0;
+  double weighted_sum = 0, weight = 0, excused_weight = 0;
   std::vector<Vec3> hot;
 };
 
@@ -43,6 +78,7 @@ Partial combine(Partial a, const Partial& b) {
   }
   a.weighted_sum += b.weighted_sum;
   a.weight += b.weight;
+  a.excused_weight += b.excused_weight;
   a.hot.insert(a.hot.end(), b.hot.begin(), b.hot.end());
   return a;
 }
@@ -54,6 +90,10 @@ class SampleMeter {
 
   void add(const Vec3& p, double weight) {
     const double d = distance_to_target(p);
+    if (d > target_.trusted_distance && target_.is_excused(p, d)) {
+      partial_.excused_weight += weight;
+      return;
+    }
     if (d > partial_.max) {
       partial_.max = d;
       partial_.worst = p;
@@ -97,7 +137,9 @@ Partial measure(const TriMesh& sampled, const Target& target, double spacing) {
   return total;
 }
 
-double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weight : p.max; }
+/// Zero when every sample was excused.
+double max_of(const Partial& p) { return p.weight > 0 || p.excused_weight == 0 ? p.max : 0; }
+double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weight : max_of(p); }
 
 }  // namespace
 
@@ -113,16 +155,27 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double hot = options.hot_threshold > 0 ? options.hot_threshold * diagonal
                                                : std::numeric_limits<double>::infinity();
   const SurfaceTree boundary(triangulate_quads(mesh, collect_judged_quads(mesh, options.quads)));
-  Partial to_mesh = measure(surface.surface(), {boundary, hot}, spacing);
-  const Partial to_surface = measure(boundary.surface(), {surface, hot}, spacing);
+  const double trusted =
+      options.solid_only ? kTrustedDistance * diagonal : std::numeric_limits<double>::infinity();
+  const auto is_off_solid = [&](const Vec3& p, double) {
+    return !is_solid_boundary(surface, p, diagonal);
+  };
+  const auto closes_hole = [&](const Vec3& p, double d) {
+    return is_closing_hole(boundary, surface, p, d);
+  };
+  Partial to_mesh = measure(surface.surface(), {boundary, hot, is_off_solid, trusted}, spacing);
+  const Partial to_surface =
+      measure(boundary.surface(), {surface, hot, closes_hole, trusted}, spacing);
 
   SurfaceDistance result;
-  result.max_to_mesh = to_mesh.max / diagonal;
+  result.max_to_mesh = max_of(to_mesh) / diagonal;
   result.mean_to_mesh = mean_of(to_mesh) / diagonal;
   result.worst_on_surface = to_mesh.worst;
-  result.max_to_surface = to_surface.max / diagonal;
+  result.max_to_surface = max_of(to_surface) / diagonal;
   result.mean_to_surface = mean_of(to_surface) / diagonal;
   result.worst_on_mesh = to_surface.worst;
+  const double all = to_mesh.weight + to_mesh.excused_weight;
+  result.ignored_share = all > 0 ? to_mesh.excused_weight / all : 0;
   result.hot = std::move(to_mesh.hot);
   result.hot.insert(result.hot.end(), to_surface.hot.begin(), to_surface.hot.end());
   return result;

@@ -49,6 +49,7 @@ Json to_json(const SurfaceDistance& d) {
           {"mean_to_mesh", d.mean_to_mesh},
           {"max_to_surface", d.max_to_surface},
           {"mean_to_surface", d.mean_to_surface},
+          {"ignored_share", d.ignored_share},
           {"worst_on_surface", to_json(d.worst_on_surface)},
           {"worst_on_mesh", to_json(d.worst_on_mesh)}};
 }

@@ -221,6 +221,52 @@ TEST(TriangleSamples, ANeedleCostsItsLength) {
   EXPECT_LE(TriangleSamples(needle, 0.001).size(), 1002u);
 }
 
+// A cube of the same orientation hidden inside another bounds nothing.
+TEST(SurfaceDistance, LeavesOutPartsInsideTheSolid) {
+  TriMesh surface = test::unit_cube_surface();
+  const TriMesh cube = test::unit_cube_surface();
+  for (const Vec3& p : cube.positions) surface.positions.push_back(p * 0.5 + Vec3{0.2, 0.2, 0.2});
+  for (const auto& t : cube.tris)
+    surface.tris.push_back(
+        {VertId(t[0].value() + 8), VertId(t[1].value() + 8), VertId(t[2].value() + 8)});
+  const SurfaceTree tree(surface);
+  const HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  DistanceOptions options;
+  options.hot_threshold = 0.01;
+  SurfaceDistance d = measure_distance(mesh, tree, options);
+  EXPECT_NEAR(d.max_two_way(), 0, 1e-12);
+  EXPECT_TRUE(d.hot.empty());
+  EXPECT_NEAR(d.ignored_share, 0.2, 0.02);  // 1.5 of 7.5 units of area
+  options.solid_only = false;
+  d = measure_distance(mesh, tree, options);
+  EXPECT_NEAR(d.max_to_mesh * std::sqrt(3.0), 0.3, 0.01);
+  EXPECT_FALSE(d.hot.empty());
+  EXPECT_EQ(d.ignored_share, 0);
+}
+
+// The winding number closes a plane hole by its plane.
+TEST(SurfaceDistance, LeavesOutTheMeshThatClosesAHole) {
+  TriMesh open = test::unit_cube_surface();
+  open.tris.resize(10);  // without the side z = 1
+  const SurfaceTree tree(open);
+  const HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  DistanceOptions options;
+  EXPECT_NEAR(measure_distance(mesh, tree, options).max_to_surface, 0, 0.005);
+  options.solid_only = false;
+  EXPECT_GT(measure_distance(mesh, tree, options).max_to_surface, 0.2);
+}
+
+// A miss stays a miss: the surface bounds the solid there.
+TEST(SurfaceDistance, CountsSolidThatTheMeshLacks) {
+  const SurfaceTree tree(test::unit_cube_surface());
+  HexMesh half = test::box_hex_mesh(1, 1, 1);
+  for (Vec3& p : half.positions) p.z *= 0.5;
+  const SurfaceDistance d = measure_distance(half, tree, {});
+  EXPECT_NEAR(d.max_to_mesh * std::sqrt(3.0), 0.5, 1e-9);
+  EXPECT_NEAR(d.max_to_surface * std::sqrt(3.0), 0.5, 0.01);
+  EXPECT_EQ(d.ignored_share, 0);
+}
+
 TEST(PointTree, AgreesWithBruteForce) {
   std::mt19937 random(14);
   std::uniform_int_distribution<int> coordinate(0, 9);  // many equal coordinates

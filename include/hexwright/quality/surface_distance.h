@@ -24,6 +24,10 @@ struct DistanceOptions {
   double spacing = 0.004;  ///< distance between samples, share of the surface's diagonal
   double hot_threshold =
       0;  ///< collect samples farther than this (share of the diagonal) into `hot`; 0 = none
+  /// Leaves out far samples where surface and solid part by right: on the surface, those that do
+  /// not bound the solid (overlapped parts, by the winding number on both sides); on the mesh,
+  /// those where the winding number closes a hole of the surface.
+  bool solid_only = true;
 };
 
 /// Distances as shares of the surface's bounding-box diagonal.
@@ -31,7 +35,8 @@ struct SurfaceDistance {
   double max_to_mesh = 0, mean_to_mesh = 0;        ///< from the surface to the mesh's boundary
   double max_to_surface = 0, mean_to_surface = 0;  ///< from the mesh's boundary to the surface
   Vec3 worst_on_surface, worst_on_mesh;            ///< where the maxima are reached
-  std::vector<Vec3> hot;                           ///< samples farther than hot_threshold
+  double ignored_share = 0;  ///< of the surface's samples, by area: left out by solid_only
+  std::vector<Vec3> hot;     ///< samples farther than hot_threshold
   double max_two_way() const { return std::max(max_to_mesh, max_to_surface); }
   double mean_two_way() const { return std::max(mean_to_mesh, mean_to_surface); }
 };
