@@ -135,7 +135,10 @@ bool try_build(const Grid& grid, DualMode mode, const Context& context, HexCompl
 HexComplex build_complex(const Grid& grid, DualMode mode, const Context& context, Grid& used_grid) {
   if (grid.roots.empty()) throw Error(ErrorCode::BadGeometry, "the grid has no root cubes");
   HexComplex complex;
-  used_grid = grid;
+  const Domain domain(grid);
+  // The base mesh of a refined thin domain may exist and yet lack hexes that its pillows need.
+  const bool is_refined_and_thin = grid.finest_level > 0 && !domain.is_box() && domain.is_thin();
+  used_grid = is_refined_and_thin ? split_roots(grid) : grid;
   for (int halvings = 0; !try_build(used_grid, mode, context, complex); ++halvings) {
     if (halvings > grid.finest_level)
       throw Error(ErrorCode::BadGeometry, "the domain's boundary is not a manifold");
