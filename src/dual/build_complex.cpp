@@ -22,38 +22,24 @@ void reject_unpaired(std::size_t depth, std::size_t num_partners) {
                   "or octree first, or use the mode sheets");
 }
 
-// From the coarsest depth on, as cells split here are parents at the next one.
+// From the coarsest depth on, as cells split here are parents at the next one. Core planes keep
+// clear of twisted corners, in blocks mode too: caps of several depths that start there cannot be
+// untangled, while around a corner in the middle of a node's siblings the mesh is a regular one.
 void choose_all_core_planes(std::vector<SplitNodes>& split, const Domain& domain, DualMode mode) {
   constexpr int kMaxRounds = 10;
+  const auto twisted = domain.find_chiral_corners();
   for (std::size_t depth = 0; depth < split.size(); ++depth) {
     const int d = static_cast<int>(depth);
-    auto report = choose_core_planes(split[depth], d, domain);
+    auto report = choose_core_planes(split[depth], d, domain, {});
     if (mode == DualMode::Blocks && report.num_partners > 0)
       reject_unpaired(depth, report.num_partners);
+    if (!twisted.empty()) report = choose_core_planes(split[depth], d, domain, twisted);
     const SplitNodes* above = depth > 0 ? &split[depth - 1] : nullptr;
     for (int round = 0; round < kMaxRounds && report.num_partners > 0; ++round) {
       if (split_crossed_cells(split[depth], above, d, domain) == 0) break;
-      report = choose_core_planes(split[depth], d, domain);
+      report = choose_core_planes(split[depth], d, domain, twisted);
     }
   }
-}
-
-// The same cells over roots of half the edge; root cubes that are leaves are split.
-Grid split_roots(const Grid& grid) {
-  std::vector<char> is_root_leaf(grid.num_cells());
-  for (CellId c : grid.cells.ids()) is_root_leaf[c.index()] = grid.cells[c].level == 0;
-  const Grid split = split_cells(grid, is_root_leaf);
-  std::vector<LatticeCoord> roots;
-  for (const LatticeCoord& r : split.roots)
-    for (int q = 0; q < 8; ++q)
-      roots.push_back({2 * r[0] + (q & 1), 2 * r[1] + (q >> 1 & 1), 2 * r[2] + (q >> 2)});
-  std::vector<CellSpec> cells;
-  for (CellId c : split.cells.ids()) {
-    CellSpec cell{split.cells[c].level - 1, split.cells[c].corner};
-    for (auto& x : cell.index) x /= split.cell_size(c);
-    cells.push_back(cell);
-  }
-  return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
 }
 
 BaseStatus stack_pillows(const Domain& domain, const std::vector<SplitNodes>& split,
@@ -129,6 +115,23 @@ bool try_build(const Grid& grid, DualMode mode, const Context& context, HexCompl
 }
 
 }  // namespace
+
+Grid split_roots(const Grid& grid) {
+  std::vector<char> is_root_leaf(grid.num_cells());
+  for (CellId c : grid.cells.ids()) is_root_leaf[c.index()] = grid.cells[c].level == 0;
+  const Grid split = split_cells(grid, is_root_leaf);
+  std::vector<LatticeCoord> roots;
+  for (const LatticeCoord& r : split.roots)
+    for (int q = 0; q < 8; ++q)
+      roots.push_back({2 * r[0] + (q & 1), 2 * r[1] + (q >> 1 & 1), 2 * r[2] + (q >> 2)});
+  std::vector<CellSpec> cells;
+  for (CellId c : split.cells.ids()) {
+    CellSpec cell{split.cells[c].level - 1, split.cells[c].corner};
+    for (auto& x : cell.index) x /= split.cell_size(c);
+    cells.push_back(cell);
+  }
+  return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
+}
 
 // Domains one root thick, and the rare refined corners that nothing else repairs, are meshed on the
 // lattice of half their roots; on the finest lattice at last, which always works.

@@ -13,4 +13,7 @@ namespace hexwright::dual {
 /// somewhere. Errors: see build_dual().
 HexComplex build_complex(const Grid& grid, DualMode mode, const Context& context, Grid& used_grid);
 
+/// The same cells over roots of half the edge; root cubes that are leaves are split.
+Grid split_roots(const Grid& grid);
+
 }  // namespace hexwright::dual

@@ -57,26 +57,47 @@ struct PlaneCost {
     return *this;
   }
 };
-using ClusterCost = std::array<std::array<PlaneCost, 2>, 3>;  // [axis][parity]
+struct AxisCost {
+  std::array<PlaneCost, 2> of_parity;
+  std::array<bool, 2> is_avoided = {false, false};  // leads a plane through a vertex to avoid
+
+  int best_parity() const {
+    if (is_avoided[0] != is_avoided[1]) return is_avoided[0];
+    return !(of_parity[0] < of_parity[1]);
+  }
+};
+using ClusterCost = std::array<AxisCost, 3>;
 
 class PlaneChooser {
  public:
   PlaneChooser(SplitNodes& nodes, int depth, const Domain& domain)
       : nodes_(nodes), depth_(depth), domain_(domain) {}
 
-  CorePlaneReport run() {
+  CorePlaneReport run(std::span<const LatticeCoord> avoid) {
     Clusters clusters(nodes_);
     std::vector<ClusterCost> costs(nodes_.num_groups());
     for (std::size_t g = 0; g < nodes_.num_groups(); ++g)
       add_costs(nodes_.groups()[g], costs[clusters.root(g)]);
+    for (const LatticeCoord& vert : avoid) {
+      LatticeCoord here, half_spaced;
+      for (int a = 0; a < 3; ++a) {
+        here[a] = vert[a] * (1 << depth_);
+        half_spaced[a] = 2 * here[a];
+      }
+      // All nodes around a vertex are in one cluster.
+      const std::int32_t g = nodes_.find_group_around(half_spaced);
+      if (g < 0) continue;
+      ClusterCost& cost = costs[clusters.root(static_cast<std::size_t>(g))];
+      for (int a = 0; a < 3; ++a) cost[a].is_avoided[here[a] & 1] = true;
+    }
     CorePlaneReport report;
     for (std::size_t g = 0; g < nodes_.num_groups(); ++g) {
       const ClusterCost& cost = costs[clusters.root(g)];
       std::uint8_t parity = 0;
       for (int a = 0; a < 3; ++a) {
-        const bool odd = !(cost[a][0] < cost[a][1]);
+        const int odd = cost[a].best_parity();
         parity |= static_cast<std::uint8_t>(odd << a);
-        if (clusters.root(g) == g) report.num_partners += cost[a][odd].num_partners;
+        if (clusters.root(g) == g) report.num_partners += cost[a].of_parity[odd].num_partners;
       }
       nodes_.groups()[g].parity = parity;
     }
@@ -86,9 +107,9 @@ class PlaneChooser {
  private:
   void add_costs(const NodeGroup& group, ClusterCost& cost) const {
     for (int a = 0; a < 3; ++a) {
-      cost[a][1] += odd_cost(group, a);
-      cost[a][0] += even_cost(group, a, 0);
-      cost[a][0] += even_cost(group, a, 1);
+      cost[a].of_parity[1] += odd_cost(group, a);
+      cost[a].of_parity[0] += even_cost(group, a, 0);
+      cost[a].of_parity[0] += even_cost(group, a, 1);
     }
   }
 
@@ -132,8 +153,9 @@ class PlaneChooser {
 
 }  // namespace
 
-CorePlaneReport choose_core_planes(SplitNodes& nodes, int depth, const Domain& domain) {
-  return PlaneChooser(nodes, depth, domain).run();
+CorePlaneReport choose_core_planes(SplitNodes& nodes, int depth, const Domain& domain,
+                                   std::span<const LatticeCoord> avoid) {
+  return PlaneChooser(nodes, depth, domain).run(avoid);
 }
 
 }  // namespace hexwright::dual

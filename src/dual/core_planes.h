@@ -5,6 +5,8 @@
 // parity per axis for each 26-connected cluster of nodes (docs/algorithms/dual.md, "Core planes").
 #pragma once
 
+#include <span>
+
 #include "dual/domain.h"
 
 namespace hexwright::dual {
@@ -14,7 +16,9 @@ struct CorePlaneReport {
 };
 
 /// Sets the parity of every group at depth `depth` so that the fewest partners are cut; among
-/// equals so that the pillows have the fewest squares.
-CorePlaneReport choose_core_planes(SplitNodes& nodes, int depth, const Domain& domain);
+/// equals so that the pillows have the fewest squares. No core plane is led through a vertex of
+/// `avoid` (on the lattice of the roots) unless other such vertices of its cluster leave no choice.
+CorePlaneReport choose_core_planes(SplitNodes& nodes, int depth, const Domain& domain,
+                                   std::span<const LatticeCoord> avoid);
 
 }  // namespace hexwright::dual

@@ -60,6 +60,22 @@ bool Domain::is_chiral_corner(const LatticeCoord& point) const {
   return num_octants == 4 && num_ends == 2 && num_links == 6;
 }
 
+std::vector<LatticeCoord> Domain::find_chiral_corners() const {
+  std::vector<LatticeCoord> corners;
+  if (is_box_) return corners;
+  // Found once from each of its four roots.
+  for (const LatticeCoord& root : root_list_)
+    for (int q = 0; q < 8; ++q) {
+      const LatticeCoord corner = {root[0] + (q & 1), root[1] + (q >> 1 & 1), root[2] + (q >> 2)};
+      LatticeCoord point = corner;
+      for (auto& x : point) x *= root_edge();
+      if (is_chiral_corner(point)) corners.push_back(corner);
+    }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
 bool Domain::is_corner_or_crease(const LatticeCoord& point) const {
   const int octants = octants_at(point);
   if (octants == 0 || octants == 0xFF) return false;

@@ -23,6 +23,8 @@ class Domain {
 
   /// Do four octants of the domain meet at the point in a twisted path?
   bool is_chiral_corner(const LatticeCoord& point) const;
+  /// All such points, on the lattice of the roots.
+  std::vector<LatticeCoord> find_chiral_corners() const;
 
   /// The roots in the grid's order, and a distinct index below num_cell_indices() for each.
   const std::vector<LatticeCoord>& roots() const { return root_list_; }

@@ -44,12 +44,11 @@ void to_world(const Grid& grid, HexMesh& mesh) {
   });
 }
 
-}  // namespace
-
-DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context) {
+// The mesh over the grid's own roots, or over smaller ones where those carry none: `used_grid`.
+DualResult build_once(const Grid& grid, const DualOptions& options, const Context& context,
+                      Grid& used_grid) {
   DualResult result;
   HexMesh& mesh = result.mesh;
-  Grid used_grid;
   VertToHex vert_to_hex;
   FixedAxes fixed_axes;
   {
@@ -71,6 +70,21 @@ DualResult build_dual(const Grid& grid, const DualOptions& options, const Contex
   result.report.min_scaled_jacobian_raw = raw.min;
   result.report.min_scaled_jacobian = final.min;
   result.report.avg_scaled_jacobian = final.avg;
+  return result;
+}
+
+}  // namespace
+
+// Twisted corners of the domain so close together that core planes cannot keep clear of all of them
+// are the one case known that leaves inverted elements. Over roots of half the edge all corners
+// have even coordinates, and one parity avoids them all.
+DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context) {
+  Grid used_grid;
+  DualResult result = build_once(grid, options, context, used_grid);
+  for (int halvings = 0; options.optimize && result.report.min_scaled_jacobian <= 0 &&
+                         halvings < grid.finest_level && !Domain(used_grid).is_box();
+       ++halvings)
+    result = build_once(split_roots(used_grid), options, context, used_grid);
   return result;
 }
 

@@ -10,10 +10,6 @@ namespace hexwright::test {
 /// Do four roots meet at a vertex in a twisted path? Such corners are chamfered on purpose.
 bool has_chiral_corner(const std::vector<LatticeCoord>& roots);
 
-/// What find_dual_problem says of a known limit: refinement right at a twisted corner of the
-/// domain.
-inline constexpr const char* kInvertedAtTwist = "inverted element near a twisted corner";
-
 /// Empty when the grid's mesh is valid, fills its domain and has no inverted element; in blocks
 /// mode on a box not even before optimisation. Domains that are pinched along an edge must be
 /// rejected.
@@ -28,8 +24,7 @@ struct GridFamily {
   DualMode mode;
 };
 
-/// Expects no problem for the seeds first .. last - 1, but for the known limit in one of fifty;
-/// prints minimised failures.
+/// Expects no problem for the seeds first .. last - 1; prints minimised failures.
 void check_random_grids(const GridFamily& family, unsigned first, unsigned last);
 
 }  // namespace hexwright::test
