@@ -2,7 +2,6 @@
 #include "fit/boundary_quads.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace hexwright::fitting {
 
@@ -32,18 +31,28 @@ struct HalfEdge {
   int side;
 };
 
-std::vector<HalfEdge> sorted_half_edges(IdSpan<QuadId, const std::array<VertId, 4>> quads) {
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(4 * quads.size());
-  for (QuadId q : quads.ids())
-    for (int k = 0; k < 4; ++k) {
-      const VertId v = quads[q][static_cast<std::size_t>(k)];
-      const VertId w = quads[q][static_cast<std::size_t>((k + 1) % 4)];
-      half_edges.push_back({std::min(v, w), std::max(v, w), q, k});
-    }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return std::tie(x.a, x.b, x.quad) < std::tie(y.a, y.b, y.quad);
-  });
+/// Sorted by (a, b, quad). Linear: a bucket per vertex, and few half-edges in each.
+std::vector<HalfEdge> sorted_half_edges(std::size_t num_verts,
+                                        IdSpan<QuadId, const std::array<VertId, 4>> quads) {
+  const auto visit = [&](auto&& take) {
+    for (QuadId q : quads.ids())
+      for (int k = 0; k < 4; ++k) {
+        const VertId v = quads[q][static_cast<std::size_t>(k)];
+        const VertId w = quads[q][static_cast<std::size_t>((k + 1) % 4)];
+        take(HalfEdge{std::min(v, w), std::max(v, w), q, k});
+      }
+  };
+  std::vector<std::size_t> offset(num_verts + 1, 0);
+  visit([&](const HalfEdge& he) { ++offset[he.a.index() + 1]; });
+  for (std::size_t v = 0; v < num_verts; ++v) offset[v + 1] += offset[v];
+  std::vector<HalfEdge> half_edges(4 * quads.size());
+  auto next = offset;
+  visit([&](const HalfEdge& he) { half_edges[next[he.a.index()]++] = he; });
+  // A bucket is filled in order of its quads; a stable order by b keeps that.
+  for (std::size_t v = 0; v < num_verts; ++v)
+    for (std::size_t i = offset[v] + 1; i < offset[v + 1]; ++i)
+      for (std::size_t j = i; j > offset[v] && half_edges[j].b < half_edges[j - 1].b; --j)
+        std::swap(half_edges[j], half_edges[j - 1]);
   return half_edges;
 }
 
@@ -52,7 +61,7 @@ std::vector<HalfEdge> sorted_half_edges(IdSpan<QuadId, const std::array<VertId, 
 BoundaryGraph::BoundaryGraph(std::size_t num_verts,
                              IdSpan<QuadId, const std::array<VertId, 4>> quads)
     : quad_edges_(quads.size()), edge_offset_(num_verts + 1, 0), quad_offset_(num_verts + 1, 0) {
-  for (const HalfEdge& he : sorted_half_edges(quads)) {
+  for (const HalfEdge& he : sorted_half_edges(num_verts, quads)) {
     const bool is_new =
         edges_.empty() || edges_.raw().back().a != he.a || edges_.raw().back().b != he.b;
     if (is_new) edges_.push_back({he.a, he.b, {}, 0});

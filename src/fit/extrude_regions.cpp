@@ -1,4 +1,6 @@
-// Plans the copies (what each becomes on the boundary), inserts the sheet, rewrites the marks.
+// Plans the copies (what each becomes on the boundary), inserts the sheets, rewrites the marks. A
+// sheet that does not fit is left out and the others are inserted without it, so that a batch costs
+// one rebuild of the adjacency however many of its sheets fail.
 #include "fit/extrude_regions.h"
 
 #include <algorithm>
@@ -21,23 +23,31 @@ struct CopyPlan {
   PatchId patch;
   CurveId curve;
   double arc = 0;
+  Vec3 direction;  ///< away from the copy, unit; sees the chosen quads
 };
 
 class Extrusion {
  public:
   Extrusion(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
-            const IdVector<RegionId, char>& is_chosen)
+            const SheetChoice& choice)
       : state_(state),
         marks_(marks),
         features_(features),
-        is_chosen_(is_chosen),
+        choice_(choice),
+        is_in_use_(choice.num_sheets, 1),
         marked_(state, marks) {}
 
-  bool run() {
-    collect_quads();
-    if (sheet_.quads.empty() || !plan_copies()) return false;
-    const auto copies = insert_sheet(state_.mesh, state_.vert_to_hex, sheet_, {}, kMinJacobian);
-    if (copies.empty()) return false;
+  std::vector<char> run() {
+    plan_all();
+    std::vector<VertId> copies;
+    while (copies.empty()) {
+      collect_sheet();
+      if (sheet_.quads.empty()) return is_in_use_;
+      SheetInsertion insertion =
+          insert_sheet(state_.mesh, state_.vert_to_hex, sheet_, {}, kMinJacobian);
+      copies = std::move(insertion.copies);
+      for (VertId v : insertion.stuck) is_in_use_[sheet_of(v)] = 0;
+    }
     copy_.assign(marked_.graph.num_verts(), VertId{});
     for (std::size_t i = 0; i < copies.size(); ++i) copy_[sheet_.verts[i]] = copies[i];
     std::vector<QuadLabel> labels = label_quads();
@@ -46,14 +56,40 @@ class Extrusion {
     write_copies();
     state_.rebuild();
     restore_regions(state_, std::move(labels), marks_);
-    return true;
+    return is_in_use_;
   }
 
  private:
-  bool is_in(QuadId q) const { return is_chosen_[marks_.quad_to_region[q]] != 0; }
+  int sheet_of(QuadId q) const { return choice_.region_to_sheet[marks_.quad_to_region[q]]; }
+  /// Of a vertex of a chosen quad; those of one sheet are all it has.
+  std::size_t sheet_of(VertId v) const {
+    int sheet = SheetChoice::kNone;
+    for (QuadId q : marked_.graph.quads(v)) sheet = std::max(sheet, sheet_of(q));
+    return static_cast<std::size_t>(sheet);
+  }
+  bool is_in(QuadId q) const {
+    const int sheet = sheet_of(q);
+    return sheet >= 0 && is_in_use_[static_cast<std::size_t>(sheet)] != 0;
+  }
   VertId moved(VertId v) const { return copy_[v].is_valid() ? copy_[v] : v; }
 
-  void collect_quads() {
+  /// Plans every vertex of the chosen quads; a sheet with a vertex that cannot be planned fails.
+  void plan_all() {
+    plan_of_.resize(marked_.graph.num_verts());
+    collect_sheet();
+    std::vector<std::size_t> failed;  // sheets stay in use until all vertices are seen alike
+    for (VertId v : sheet_.verts) {
+      if (const auto plan = plan_copy(v))
+        plan_of_[v] = *plan;
+      else
+        failed.push_back(sheet_of(v));
+    }
+    for (std::size_t sheet : failed) is_in_use_[sheet] = 0;
+  }
+
+  /// The quads of the sheets in use as one sheet (of several components).
+  void collect_sheet() {
+    sheet_ = {};
     for (QuadId q : marks_.quad_to_region.ids()) {
       if (!is_in(q)) continue;
       sheet_.quads.push_back(face_verts(state_.mesh, state_.quad_face[q.index()]));
@@ -61,17 +97,7 @@ class Extrusion {
     }
     sheet_.verts = sheet_verts(sheet_.quads);
     sheet_.depth = kDepth;
-  }
-
-  bool plan_copies() {
-    for (VertId v : sheet_.verts) {
-      const VisibleDirection visible = direction_at(v);
-      const auto plan = plan_copy(v);
-      if (!plan || visible.cosine < kLeastCosine || state_.move[v] != MoveIn::Space) return false;
-      sheet_.directions.push_back(visible.direction);
-      plans_.push_back(*plan);
-    }
-    return true;
+    for (VertId v : sheet_.verts) sheet_.directions.push_back(plan_of_[v].direction);
   }
 
   /// Sees the chosen quads at a vertex; the others may be seen from behind.
@@ -90,8 +116,16 @@ class Extrusion {
     return find_visible_direction(normals);
   }
 
-  /// Absent where the rim cannot pass.
+  /// Absent where the rim cannot pass, or nothing sees the chosen quads.
   std::optional<CopyPlan> plan_copy(VertId v) const {
+    const VisibleDirection visible = direction_at(v);
+    if (visible.cosine < kLeastCosine || state_.move[v] != MoveIn::Space) return {};
+    auto plan = plan_place(v);
+    if (plan) plan->direction = visible.direction;
+    return plan;
+  }
+
+  std::optional<CopyPlan> plan_place(VertId v) const {
     const QuadFans fans = find_quad_fans(marked_, v, [&](QuadId q) { return is_in(q); });
     if (fans.num_inside != 1 || fans.num_outside > 1 || fans.marked_outside.size() > 1) return {};
     CopyPlan plan;
@@ -152,21 +186,22 @@ class Extrusion {
       for (VertId& v : edge.verts) v = moved(v);
       std::sort(edge.verts.begin(), edge.verts.end());
     }
-    for (std::size_t i = 0; i < plans_.size(); ++i)
-      if (plans_[i].kind == VertKind::Curve)
-        marks_.edges.push_back({{sheet_.verts[i], copy_[sheet_.verts[i]]}, plans_[i].curve});
+    for (VertId v : sheet_.verts)
+      if (plan_of_[v].kind == VertKind::Curve)
+        marks_.edges.push_back({{v, copy_[v]}, plan_of_[v].curve});
     std::sort(marks_.edges.begin(), marks_.edges.end(),
               [](const LabeledEdge& x, const LabeledEdge& y) { return x.verts < y.verts; });
   }
 
   void write_copies() {
     state_.resize_arrays();
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
-      const VertId v = sheet_.verts[i], w = copy_[v];
-      state_.kind[w] = plans_[i].kind;
-      state_.patch[w] = plans_[i].patch;
-      state_.curve[w] = plans_[i].curve;
-      state_.arc[w] = plans_[i].arc;
+    for (VertId v : sheet_.verts) {
+      const VertId w = copy_[v];
+      const CopyPlan& plan = plan_of_[v];
+      state_.kind[w] = plan.kind;
+      state_.patch[w] = plan.patch;
+      state_.curve[w] = plan.curve;
+      state_.arc[w] = plan.arc;
       state_.target[w] = state_.target[v];
       state_.direction[w] = state_.direction[v];
     }
@@ -175,18 +210,19 @@ class Extrusion {
   FitState& state_;
   FeatureMarks& marks_;
   const FeatureGraph& features_;
-  const IdVector<RegionId, char>& is_chosen_;
+  const SheetChoice& choice_;
+  std::vector<char> is_in_use_;  // per sheet: has not failed
   MarkedGraph marked_;
-  Sheet sheet_;
-  std::vector<CopyPlan> plans_;    // per sheet vertex
-  IdVector<VertId, VertId> copy_;  // invalid off the sheet
+  Sheet sheet_;                         // of all sheets in use
+  IdVector<VertId, CopyPlan> plan_of_;  // of the vertices of chosen quads
+  IdVector<VertId, VertId> copy_;       // invalid off the sheets
 };
 
 }  // namespace
 
-bool extrude_regions(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
-                     const IdVector<RegionId, char>& is_chosen) {
-  return Extrusion(state, marks, features, is_chosen).run();
+std::vector<char> extrude_regions(FitState& state, FeatureMarks& marks,
+                                  const FeatureGraph& features, const SheetChoice& choice) {
+  return Extrusion(state, marks, features, choice).run();
 }
 
 }  // namespace hexwright::fitting

@@ -5,11 +5,19 @@
 
 namespace hexwright::fitting {
 
-/// Splits the quad vertices of the chosen regions: the originals stay on the boundary, the hexes
-/// behind get copies, one new hex per quad. The sheet's own boundary faces, over the border curves,
-/// become quads of the neighbouring regions. False, with nothing changed, where a rim cannot pass a
-/// vertex, no direction sees the quads at a vertex, or no offset gives valid hexes.
-bool extrude_regions(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
-                     const IdVector<RegionId, char>& is_chosen);
+/// Which sheet each region belongs to; sheets are numbered from 0.
+struct SheetChoice {
+  static constexpr int kNone = -1;
+  IdVector<RegionId, int> region_to_sheet;
+  std::size_t num_sheets = 0;
+};
+
+/// Inserts many sheets with one rebuild of the state. Quads of different sheets share no vertex.
+/// Each splits the quad vertices of its regions: the originals stay on the boundary, the hexes
+/// behind get copies, one new hex per quad. A sheet's own boundary faces, over the border curves,
+/// become quads of the neighbouring regions. Returns per sheet 1 when it went in, 0 where its rim
+/// cannot pass a vertex, no direction sees the quads at a vertex, or no offset gives valid hexes.
+std::vector<char> extrude_regions(FitState& state, FeatureMarks& marks,
+                                  const FeatureGraph& features, const SheetChoice& choice);
 
 }  // namespace hexwright::fitting

@@ -139,7 +139,8 @@ std::vector<QuadId> find_squeezed_quads(const FitState& state, const MarkedGraph
 bool insert_behind_set(FitState& state, FeatureMarks& marks, const MarkedGraph& marked,
                        std::span<const char> is_in_set, const Sheet& sheet) {
   constexpr double kMinJacobian = 1e-7;
-  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, sheet, is_in_set, kMinJacobian);
+  const auto copies =
+      insert_sheet(state.mesh, state.vert_to_hex, sheet, is_in_set, kMinJacobian).copies;
   if (copies.empty()) return false;
   SetRelabeling(state, marks, marked, is_in_set).run(sheet, copies);
   return true;

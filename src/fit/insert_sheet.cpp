@@ -28,15 +28,14 @@ class Insertion {
             std::span<const char> takes_copy)
       : mesh_(mesh), vert_to_hex_(vert_to_hex), sheet_(sheet), takes_copy_(takes_copy) {}
 
-  std::vector<VertId> run(double min_jacobian) {
+  SheetInsertion run(double min_jacobian) {
     measure_offsets();
     split();
     place_all();
-    if (!shrink(min_jacobian)) {
-      undo();
-      return {};
-    }
-    return copies_;
+    std::vector<VertId> stuck = shrink(min_jacobian);
+    if (stuck.empty()) return {std::move(copies_), {}};
+    undo();
+    return {{}, std::move(stuck)};
   }
 
  private:
@@ -102,19 +101,21 @@ class Insertion {
     return true;
   }
 
-  /// True when all hexes at the copies became good.
-  bool shrink(double min_jacobian) {
+  /// Shrinks the offsets around hexes that are not good. Returns the sheet's vertices at hexes that
+  /// are not good in the end.
+  std::vector<VertId> shrink(double min_jacobian) {
     std::vector<HexId> to_check;
     for (const auto& hexes : touched_) to_check.insert(to_check.end(), hexes.begin(), hexes.end());
-    for (int it = 0; it < kMaxShrinks; ++it) {
+    std::vector<std::size_t> shrinking;
+    for (int it = 0; it <= kMaxShrinks; ++it) {
       std::sort(to_check.begin(), to_check.end());
       to_check.erase(std::unique(to_check.begin(), to_check.end()), to_check.end());
-      std::vector<std::size_t> shrinking;
+      shrinking.clear();
       for (HexId h : to_check)
         if (!is_good(h, min_jacobian))
           for (VertId v : mesh_.hexes[h])
             if (v.index() >= num_old_verts_) shrinking.push_back(v.index() - num_old_verts_);
-      if (shrinking.empty()) return true;
+      if (shrinking.empty()) break;
       std::sort(shrinking.begin(), shrinking.end());
       shrinking.erase(std::unique(shrinking.begin(), shrinking.end()), shrinking.end());
       to_check.clear();
@@ -124,7 +125,9 @@ class Insertion {
         to_check.insert(to_check.end(), touched_[i].begin(), touched_[i].end());
       }
     }
-    return false;
+    std::vector<VertId> stuck;
+    for (std::size_t i : shrinking) stuck.push_back(sheet_.verts[i]);
+    return stuck;
   }
 
   void undo() {
@@ -163,8 +166,8 @@ std::vector<VertId> sheet_verts(const std::vector<std::array<VertId, 4>>& quads)
   return verts;
 }
 
-std::vector<VertId> insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
-                                 std::span<const char> takes_copy, double min_jacobian) {
+SheetInsertion insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
+                            std::span<const char> takes_copy, double min_jacobian) {
   return Insertion(mesh, vert_to_hex, sheet, takes_copy).run(min_jacobian);
 }
 

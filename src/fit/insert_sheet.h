@@ -24,12 +24,17 @@ struct Sheet {
 /// Vertices of a sheet's quads, ascending.
 std::vector<VertId> sheet_verts(const std::vector<std::array<VertId, 4>>& quads);
 
+struct SheetInsertion {
+  std::vector<VertId> copies;  ///< one per sheet vertex; empty when the insertion failed
+  /// Of a failed insertion: the sheet's vertices, ascending, at hexes that no offset made good.
+  std::vector<VertId> stuck;
+};
+
 /// Moves copies of the sheet's vertices against their directions and adds the hexes between, in
 /// order of the quads. `takes_copy` says per hex of the mesh whether it is behind; empty: all are.
 /// Offsets shrink until every corner of the hexes touched has a scaled Jacobian above
-/// `min_jacobian`. Returns the copies, one per sheet vertex; or empty, with the mesh unchanged,
-/// when that fails.
-std::vector<VertId> insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
-                                 std::span<const char> takes_copy, double min_jacobian);
+/// `min_jacobian`. When that fails the mesh is left unchanged.
+SheetInsertion insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
+                            std::span<const char> takes_copy, double min_jacobian);
 
 }  // namespace hexwright::fitting

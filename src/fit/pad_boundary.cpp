@@ -38,7 +38,7 @@ std::optional<Sheet> make_sheet(const FitState& state, const std::vector<char>& 
 bool pad_hexes(FitState& state, const std::vector<char>& takes_copy) {
   const auto sheet = make_sheet(state, takes_copy);
   if (!sheet) return false;
-  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, *sheet, takes_copy, 1e-7);
+  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, *sheet, takes_copy, 1e-7).copies;
   if (copies.empty() && !sheet->quads.empty()) return false;
   state.rebuild();
   return true;

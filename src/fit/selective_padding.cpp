@@ -17,8 +17,10 @@ namespace hexwright::fitting {
 namespace {
 
 constexpr int kMaxRestarts = 6;
+constexpr int kMaxFutileRestarts = 2;  // restarts in a row that leave no fewer quads unpadded
 constexpr int kSweepsAfterBatch = 3;
 constexpr int kSweepsBeforeRetry = 6;
+constexpr int kRingsBeforeRetry = 2;  // around the groups that found no room
 constexpr double kRelaxWeight = 3;
 
 /// Kinds, places and marks of the scaffold's boundary on the carved mesh.
@@ -54,15 +56,18 @@ class SelectivePadder {
   SelectivePadding run() {
     std::vector<GroupId> todo = choose_groups();
     std::optional<SelectivePadding> best;
-    for (int restart = 0; restart < kMaxRestarts; ++restart) {
-      context_.check_cancelled();
+    int num_futile = 0;
+    for (int restart = 0; restart < kMaxRestarts && num_futile < kMaxFutileRestarts; ++restart) {
       SelectivePadding attempt = start_;
       attempt.report.num_restarts = static_cast<std::size_t>(restart);
-      const std::vector<GroupId> failed = extrude_all(attempt, todo, restart > 0);
+      const std::vector<GroupId> failed = extrude_all(attempt, todo);
       for (GroupId g : failed) attempt.report.num_failed_quads += groups_.num_quads[g];
       attempt.report.num_sheets = todo.size() - failed.size();
-      if (!best || attempt.report.num_failed_quads < best->report.num_failed_quads)
+      ++num_futile;
+      if (!best || attempt.report.num_failed_quads < best->report.num_failed_quads) {
         best = std::move(attempt);
+        num_futile = 0;
+      }
       if (failed.empty()) break;
       bring_forward(failed, todo);
     }
@@ -83,49 +88,56 @@ class SelectivePadder {
     std::stable_sort(todo.begin(), todo.end(), [&](GroupId x, GroupId y) {
       return groups_.num_quads[x] < groups_.num_quads[y];
     });
+    is_urgent_.assign(groups_.num_quads.size(), 0);
     start_.report.num_groups = groups_.num_quads.size();
     start_.report.num_needed = todo.size();
     return todo;
   }
 
-  static void bring_forward(const std::vector<GroupId>& failed, std::vector<GroupId>& todo) {
+  /// Groups that found no room go first next time.
+  void bring_forward(const std::vector<GroupId>& failed, std::vector<GroupId>& todo) {
+    for (GroupId g : failed) is_urgent_[g] = 1;
     std::stable_partition(todo.begin(), todo.end(), [&](GroupId g) {
       return std::find(failed.begin(), failed.end(), g) != failed.end();
     });
   }
 
   /// Returns the groups that got no sheet.
-  std::vector<GroupId> extrude_all(SelectivePadding& attempt, std::vector<GroupId> todo,
-                                   bool keeps_order) {
+  std::vector<GroupId> extrude_all(SelectivePadding& attempt, std::vector<GroupId> todo) const {
     std::vector<GroupId> failed;
     while (!todo.empty()) {
-      const std::vector<GroupId> batch = take_batch(attempt, todo, keeps_order);
-      if (!extrude(attempt, batch))
-        for (GroupId g : batch)
-          if (!extrude_alone(attempt, g)) failed.push_back(g);
-      relax(attempt.state, kSweepsAfterBatch);
+      context_.check_cancelled();
+      const std::size_t num_old_verts = attempt.state.num_verts();
+      const std::vector<GroupId> batch = take_batch(attempt, todo);
+      std::vector<GroupId> unfit = extrude(attempt, batch);
+      if (!unfit.empty()) {
+        relax(attempt.state, copies_near(attempt, unfit), kSweepsBeforeRetry);
+        unfit = extrude(attempt, unfit);
+      }
+      failed.insert(failed.end(), unfit.begin(), unfit.end());
+      relax(attempt.state, copies_from(attempt.state, num_old_verts), kSweepsAfterBatch);
     }
     return failed;
   }
 
-  bool extrude_alone(SelectivePadding& attempt, GroupId g) {
-    if (extrude(attempt, {g})) return true;
-    relax(attempt.state, kSweepsBeforeRetry);
-    return extrude(attempt, {g});
+  /// Returns the groups of the batch whose sheets do not fit.
+  std::vector<GroupId> extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) const {
+    IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetChoice::kNone);
+    for (std::size_t i = 0; i < batch.size(); ++i) group_to_sheet[batch[i]] = static_cast<int>(i);
+    SheetChoice choice;
+    choice.num_sheets = batch.size();
+    for (GroupId g : groups_.region_to_group) choice.region_to_sheet.push_back(group_to_sheet[g]);
+    const auto is_done = extrude_regions(attempt.state, attempt.marks, *target_.features, choice);
+    std::vector<GroupId> unfit;
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      if (!is_done[i]) unfit.push_back(batch[i]);
+    return unfit;
   }
 
-  bool extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) {
-    IdVector<RegionId, char> is_chosen(groups_.region_to_group.size(), 0);
-    for (RegionId r : is_chosen.ids())
-      is_chosen[r] =
-          std::find(batch.begin(), batch.end(), groups_.region_to_group[r]) != batch.end();
-    return extrude_regions(attempt.state, attempt.marks, *target_.features, is_chosen);
-  }
-
-  /// Takes groups from the list, in order, whose quads share no vertex with those taken before;
-  /// `keeps_order` stops at the first that does.
-  std::vector<GroupId> take_batch(const SelectivePadding& attempt, std::vector<GroupId>& todo,
-                                  bool keeps_order) const {
+  /// Takes groups from the list, in order, whose quads share no vertex with those taken before,
+  /// nor with urgent ones left behind: those go before their neighbours.
+  std::vector<GroupId> take_batch(const SelectivePadding& attempt,
+                                  std::vector<GroupId>& todo) const {
     IdVector<GroupId, std::vector<VertId>> verts(groups_.num_quads.size());
     for (QuadId q : attempt.marks.quad_to_region.ids()) {
       auto& list = verts[groups_.region_to_group[attempt.marks.quad_to_region[q]]];
@@ -135,25 +147,42 @@ class SelectivePadder {
     std::vector<char> is_used(attempt.state.num_verts(), 0);
     std::vector<GroupId> batch, rest;
     for (GroupId g : todo) {
-      const bool is_blocked = (keeps_order && !rest.empty()) ||
-                              std::any_of(verts[g].begin(), verts[g].end(),
+      const bool is_blocked = std::any_of(verts[g].begin(), verts[g].end(),
                                           [&](VertId v) { return is_used[v.index()] != 0; });
-      if (is_blocked) {
-        rest.push_back(g);
-        continue;
-      }
-      batch.push_back(g);
+      (is_blocked ? rest : batch).push_back(g);
+      if (is_blocked && !is_urgent_[g]) continue;
       for (VertId v : verts[g]) is_used[v.index()] = 1;
     }
     todo = std::move(rest);
     return batch;
   }
 
-  /// Sweeps over the copies on rims and one ring around them, with a slight pull to the targets.
-  void relax(FitState& state, int num_sweeps) const {
-    std::vector<char> is_member(state.num_verts(), 0);
-    for (std::size_t i = start_.state.num_verts(); i < is_member.size(); ++i)
-      is_member[i] = state.is_boundary(VertId(i)) ? 1 : 0;
+  /// Boundary vertices, from `first` on, that are copies: those on rims.
+  std::vector<char> copies_from(const FitState& state, std::size_t first) const {
+    std::vector<char> is_copy(state.num_verts(), 0);
+    for (std::size_t i = std::max(first, start_.state.num_verts()); i < is_copy.size(); ++i)
+      is_copy[i] = state.is_boundary(VertId(i)) ? 1 : 0;
+    return is_copy;
+  }
+
+  /// Copies on rims that are near some groups' quads: what may take the room of their sheets.
+  std::vector<char> copies_near(const SelectivePadding& attempt,
+                                const std::vector<GroupId>& groups) const {
+    const FitState& state = attempt.state;
+    IdVector<GroupId, char> is_asked(groups_.num_quads.size(), 0);
+    for (GroupId g : groups) is_asked[g] = 1;
+    std::vector<char> is_near(state.num_verts(), 0);
+    for (QuadId q : attempt.marks.quad_to_region.ids())
+      if (is_asked[groups_.region_to_group[attempt.marks.quad_to_region[q]]])
+        for (VertId v : state.quads[q.index()]) is_near[v.index()] = 1;
+    grow_vert_set(state, is_near, kRingsBeforeRetry);
+    const std::vector<char> is_copy = copies_from(state, 0);
+    for (std::size_t i = 0; i < is_near.size(); ++i) is_near[i] &= is_copy[i];
+    return is_near;
+  }
+
+  /// Sweeps over a set of vertices and one ring around them, with a slight pull to the targets.
+  void relax(FitState& state, std::vector<char> is_member, int num_sweeps) const {
     grow_vert_set(state, is_member, 1);
     update_targets(state, target_, 1, is_member);
     state.update_sizes();
@@ -165,6 +194,7 @@ class SelectivePadder {
   const FitTarget& target_;
   const Context& context_;
   PaddingGroups groups_;
+  IdVector<GroupId, char> is_urgent_;  // failed in an earlier start
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(InsertSheet, PadsABoxEverywhere) {
   const SetSheet s = sheet_around(mesh, all, true);
   ASSERT_TRUE(s.is_good);
   const auto boundary = compute_hex_neighbors(mesh).boundary.size();
-  const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6);
+  const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6).copies;
   EXPECT_EQ(copies.size(), s.sheet.verts.size());
   EXPECT_EQ(mesh.num_hexes(), 27 + boundary);
   const HexNeighbors after = compute_hex_neighbors(mesh);
@@ -89,7 +89,7 @@ TEST(InsertSheet, KeepsRandomSetsValidOrLeavesTheMeshAlone) {
     const SetSheet s = sheet_around(mesh, is_in, false);
     if (!s.is_good) continue;
     const HexMesh before = mesh;
-    const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, is_in, 1e-6);
+    const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, is_in, 1e-6).copies;
     if (copies.empty()) {
       EXPECT_EQ(mesh.hexes, before.hexes);
       EXPECT_EQ(mesh.positions, before.positions);
@@ -111,7 +111,9 @@ TEST(InsertSheet, RefusesADirectionThatSeesNothing) {
   SetSheet s = sheet_around(mesh, all, true);
   for (Vec3& d : s.sheet.directions) d = -d;
   const HexMesh before = mesh;
-  EXPECT_TRUE(insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6).empty());
+  const SheetInsertion failed = insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6);
+  EXPECT_TRUE(failed.copies.empty());
+  EXPECT_EQ(failed.stuck, s.sheet.verts);  // every hex of the box is turned inside out
   EXPECT_EQ(mesh.hexes, before.hexes);
   EXPECT_EQ(mesh.positions, before.positions);
 }

@@ -6,6 +6,7 @@
 
 #include "boundary_fixtures.h"
 #include "fit/curve_convexity.h"
+#include "fit/extrude_regions.h"
 #include "fit/pad_boundary.h"
 #include "fit/padding_groups.h"
 #include "fit/sweep.h"
@@ -133,6 +134,70 @@ TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
   EXPECT_EQ(problem_of(result.state, result.marks), "");
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+}
+
+/// Two opposite faces of a box as two sheets of one batch.
+struct TwoFaces {
+  explicit TwoFaces(bool one_is_held) {
+    TriMesh cube = test::unit_cube_surface();
+    test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
+    const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
+    state = s.carved;
+    marks = s.attached.marks;
+    features = s.features;
+    for (VertId v : state->kind.ids()) {
+      if (!state->is_boundary(v)) continue;
+      state->kind[v] = s.padded.kind[v];
+      state->curve[v] = s.padded.curve[v];
+      state->feature_point[v] = s.padded.feature_point[v];
+      if (one_is_held && state->mesh.positions[v] == Vec3{7, 3, 3}) state->move[v] = MoveIn::Plane;
+    }
+    choice.num_sheets = 2;
+    choice.region_to_sheet.assign(6, SheetChoice::kNone);
+    for (QuadId q : marks.quad_to_region.ids()) {
+      Vec3 center;
+      for (VertId v : state->quads[q.index()]) center += state->mesh.positions[v] * 0.25;
+      const RegionId region = marks.quad_to_region[q];
+      if (center.x == 1) choice.region_to_sheet[region] = 0;
+      if (center.x == 7) choice.region_to_sheet[region] = 1;
+    }
+  }
+  std::vector<char> extrude() { return extrude_regions(*state, marks, features, choice); }
+  std::optional<FitState> state;
+  FeatureMarks marks;
+  FeatureGraph features;
+  SheetChoice choice;
+};
+
+TEST(ExtrudeRegions, InsertsSheetsTogether) {
+  TwoFaces faces(false);
+  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 1}));
+  EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 72u);
+  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+}
+
+TEST(ExtrudeRegions, LeavesOutTheSheetThatDoesNotFit) {
+  TwoFaces faces(true), alone(true);
+  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 0}));
+  EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 36u);
+  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+  // The other sheet is as if it had been alone.
+  for (int& sheet : alone.choice.region_to_sheet)
+    if (sheet == 1) sheet = SheetChoice::kNone;
+  alone.choice.num_sheets = 1;
+  EXPECT_EQ(alone.extrude(), std::vector<char>{1});
+  EXPECT_EQ(alone.state->mesh.hexes, faces.state->mesh.hexes);
+  EXPECT_EQ(alone.state->mesh.positions, faces.state->mesh.positions);
+}
+
+TEST(ExtrudeRegions, ChangesNothingWhenNoSheetFits) {
+  TwoFaces faces(true);
+  for (int& sheet : faces.choice.region_to_sheet) sheet = sheet == 1 ? 0 : SheetChoice::kNone;
+  faces.choice.num_sheets = 1;
+  const HexMesh before = faces.state->mesh;
+  EXPECT_EQ(faces.extrude(), std::vector<char>{0});
+  EXPECT_EQ(faces.state->mesh.hexes, before.hexes);
+  EXPECT_EQ(faces.state->mesh.positions, before.positions);
 }
 
 }  // namespace
