@@ -114,6 +114,10 @@ void add_fit_options(CLI::App& cmd, FitOptions& options) {
   add_choice(cmd, "--padding", options.padding,
              {{"selective", Padding::Selective}, {"everywhere", Padding::Everywhere}},
              "Where a layer of hexes is put under the boundary");
+  add_choice(cmd, "--vertices", options.patch_verts,
+             {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}},
+             "Vertices of curved patches: beside the surface, so that quads err to both sides of "
+             "it, or on it");
   add_feature_options(cmd, options.features);
 }
 

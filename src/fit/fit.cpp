@@ -11,6 +11,7 @@
 #include "hexwright/base/assert.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "fit/balance.h"
 #include "fit/feature_layers.h"
 #include "fit/finish.h"
 #include "fit/judge_curves.h"
@@ -99,16 +100,22 @@ class Fitter {
     clock_.run("fit1", 0.25, [&] { fit_smooth(scaffold, false); });
     clock_.run("find features", 0.35, [&] { find_features(scaffold); });
     Attempt result = fit_features(carved, scaffold);
-    clock_.run("polish", 0.9, [&] { polish_worst(result.state, target(), {}, context_); });
-    clock_.run("snap", 0.93, [&] { snap_gently(result.state); });
-    clock_.run("lift", 0.95, [&] { lift_worst(result.state, target(), {}, context_); });
-    clock_.run("snap", 0.97, [&] { snap_misses(result.state); });
-    clock_.run("prove", 0.98,
-               [&] { report_.unproven = mend_unproven(result.state, target(), context_); });
+    finish(result.state);
     return conclude(std::move(result));
   }
 
  private:
+  // Everything has arrived: the best place for the boundary, then quality at that place.
+  void finish(FitState& state) {
+    clock_.run("balance", 0.88, [&] { balance(state); });
+    clock_.run("polish", 0.9, [&] { polish_worst(state, target(), {}, context_); });
+    clock_.run("snap", 0.93, [&] { snap_gently(state); });
+    clock_.run("lift", 0.95, [&] { lift_worst(state, target(), {}, context_); });
+    clock_.run("balance", 0.96, [&] { balance(state); });
+    clock_.run("snap", 0.97, [&] { settle(state); });
+    clock_.run("prove", 0.98, [&] { report_.unproven = mend_unproven(state, target(), context_); });
+  }
+
   FitState keep_hexes(const HexMesh& background) {
     if (!options_.do_carve) return FitState(background);
     report_.carve = carve(background, surface_, options_.carve, context_);
@@ -201,13 +208,22 @@ class Fitter {
                  context_);
   }
 
+  void balance(FitState& state) {
+    if (options_.patch_verts == PatchVerts::OnSurface) return;
+    update_targets(state, target(), 0);
+    balance_offsets(state, target());
+  }
+
   // Exactly onto the targets where quality hardly suffers ...
   void snap_gently(FitState& state) {
     snap_to_targets(state, target(), std::max(options_.snap_quality, 0.4));
   }
 
-  // ... and down to the least quality allowed where the distance would otherwise count as a miss.
-  void snap_misses(FitState& state) {
+  // ... again after the lift, at no cost to the least, and down to the least quality allowed where
+  // the distance would otherwise count as a miss.
+  void settle(FitState& state) {
+    const auto quality = compute_scaled_jacobians(state.mesh);
+    snap_to_targets(state, target(), *std::min_element(quality.begin(), quality.end()));
     update_targets(state, target(), 0);
     std::vector<char> is_miss(state.num_verts(), 0);
     bool any = false;

@@ -28,6 +28,7 @@ void FitState::resize_arrays() {
   curve.resize(n);
   arc.resize(n, 0);
   feature_point.resize(n);
+  offset.resize(n, 0);
   target.resize(n);
   direction.resize(n);
   move.resize(n, MoveIn::Space);

@@ -31,6 +31,8 @@ struct FitState {
   IdVector<VertId, CurveId> curve;         ///< of Curve vertices
   IdVector<VertId, double> arc;            ///< of Curve vertices: arc length on the curve
   IdVector<VertId, VertId> feature_point;  ///< of Corner vertices: the surface's vertex
+  /// Of Surface vertices: how far outwards from the surface they belong (see balance.h).
+  IdVector<VertId, double> offset;
 
   // What each vertex is pulled to (set by update_targets).
   IdVector<VertId, Vec3> target;

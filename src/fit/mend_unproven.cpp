@@ -3,30 +3,16 @@
 #include <optional>
 
 #include "hexwright/base/context.h"
-#include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/finish.h"
+#include "fit/proof.h"
 #include "fit/slide_only.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
 
 namespace hexwright::fitting {
 namespace {
-
-std::vector<HexId> find_unproven(const HexMesh& mesh) {
-  std::vector<char> is_proven(mesh.num_hexes());
-  parallel_for(
-      mesh.num_hexes(),
-      [&](std::size_t h) {
-        is_proven[h] = check_positivity(mesh.corners(HexId(h))) == Positivity::Positive;
-      },
-      256);
-  std::vector<HexId> unproven;
-  for (std::size_t h = 0; h < is_proven.size(); ++h)
-    if (!is_proven[h]) unproven.push_back(HexId(h));
-  return unproven;
-}
 
 constexpr double kMaxResidual = 0.05;  // in h: a proof is not worth more distance
 

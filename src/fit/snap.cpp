@@ -1,6 +1,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "fit/finish.h"
+#include "fit/proof.h"
 #include "fit/targets.h"
 
 namespace hexwright::fitting {
@@ -10,14 +11,15 @@ void snap_vertex(FitState& state, VertId v, double least_quality) {
   const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
   const Vec3 origin = state.mesh.positions[v];
   const double before = min_scaled_jacobian_around(origin, state.stars[v], positions);
+  const int unproven = count_unproven_around(state, v);
   double share = 1;
   for (int attempt = 0; attempt < 5; ++attempt, share *= 0.5) {
     const Vec3 there = origin + share * (state.target[v] - origin);
     const double after = min_scaled_jacobian_around(there, state.stars[v], positions);
-    if (after > 0 && after >= std::min(before - 1e-9, least_quality)) {
-      state.mesh.positions[v] = there;
-      return;
-    }
+    if (!(after > 0 && after >= std::min(before - 1e-9, least_quality))) continue;
+    state.mesh.positions[v] = there;
+    if (count_unproven_around(state, v) <= unproven) return;
+    state.mesh.positions[v] = origin;
   }
 }
 

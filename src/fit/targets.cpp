@@ -31,7 +31,8 @@ class SurfaceMatcher {
     // The last target bounds the search: it is on the surface, mostly still on the right side of
     // it.
     if (state.direction[v] != Vec3{})
-      bound_ = (1 + 1e-6) * hexwright::distance(x_, state.target[v]) + 1e-9 * h_;
+      bound_ = (1 + 1e-6) * (hexwright::distance(x_, state.target[v]) + std::abs(state.offset[v])) +
+               1e-9 * h_;
   }
 
   std::optional<ClosestPoint> find() const {
@@ -83,11 +84,13 @@ void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, c
   if (!found) return;
   const Vec3 offset = state.mesh.positions[v] - found->point;
   const double length = norm(offset), h = state.size[v];
-  const Vec3 direction = length < 1e-3 * h ? tree.normal(found->tri) : offset / length;
-  if (distance(found->point, state.target[v]) > 1e-5 * h ||
+  Vec3 direction = length < 1e-3 * h ? tree.normal(found->tri) : offset / length;
+  if (dot(direction, normal) < 0) direction = -direction;  // outwards, whatever the orientation
+  const Vec3 point = found->point + state.offset[v] * direction;
+  if (distance(point, state.target[v]) > 1e-5 * h ||
       std::abs(dot(direction, state.direction[v])) < 0.9999)
     state.is_dirty[v] = 1;
-  state.target[v] = found->point;
+  state.target[v] = point;
   state.direction[v] = direction;
 }
 

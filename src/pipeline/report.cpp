@@ -37,6 +37,7 @@ Json describe_options(const MeshOptions& o) {
                                                                : "weak"},
           {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
           {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
+          {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
           {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
           {"max_rounds", o.max_rounds},
           {"max_hexes", o.max_hexes},

@@ -62,6 +62,21 @@ TEST(Fit, ReachesASphereWithGoodElements) {
   EXPECT_LT(distance.max_two_way(), 0.003);  // the sagitta of an edge of 0.12 is 0.0005 diagonals
 }
 
+TEST(Fit, HalvesTheMeanDistanceWithVerticesBesideTheSurface) {
+  const SurfaceTree torus(test::torus_surface(1, 0.4, 120, 60));
+  const HexMesh grid = test::grid_around(torus.box(), 0.16);
+  FitOptions options;
+  const SurfaceDistance balanced = measure_distance(fit(grid, torus, options, {}).mesh, torus, {});
+  options.patch_verts = PatchVerts::OnSurface;
+  const HexMesh on_surface = fit(grid, torus, options, {}).mesh;
+  for (const HexFace& face : compute_hex_neighbors(on_surface).boundary)
+    for (VertId v : face_verts(on_surface, face))
+      EXPECT_LT(torus.distance(on_surface.positions[v]), 0.02 * 0.16);
+  const SurfaceDistance interpolating = measure_distance(on_surface, torus, {});
+  EXPECT_LT(balanced.mean_two_way(), 0.5 * interpolating.mean_two_way());
+  EXPECT_LT(balanced.max_two_way(), interpolating.max_two_way());
+}
+
 // The property the stage promises, over rotations and coarse grids that do not suit the shapes.
 TEST(Fit, NeverInvertsOverRandomRotationsOfShapes) {
   std::mt19937 rng(31);
@@ -151,6 +166,7 @@ TEST(Fit, MeshesTheOutsideInAnUnchangedBox) {
     const HexMesh grid = test::grid_around(tree.box(), tree.box().diagonal() / 14);
     FitOptions options;
     options.carve.side = Side::Outside;
+    options.patch_verts = PatchVerts::OnSurface;  // vertices on the surface are easily checked
     const FitResult result = fit(grid, tree, options, {});
     EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.19);
     EXPECT_TRUE(check_topology(result.mesh).is_valid());
@@ -173,6 +189,7 @@ TEST(Fit, MeshesBothSidesWithAConformingInterface) {
   const HexMesh grid = test::grid_around(sphere.box(), 0.25);
   FitOptions options;
   options.carve.side = Side::Both;
+  options.patch_verts = PatchVerts::OnSurface;
   const HexMesh mesh = fit(grid, sphere, options, {}).mesh;
   EXPECT_TRUE(check_topology(mesh).is_valid());
   EXPECT_GT(summarize_quality(mesh).min_scaled_jacobian, 0.2);

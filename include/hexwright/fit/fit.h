@@ -17,6 +17,12 @@ enum class Padding {
   Selective    ///< layers only where a patch's curves or corners cannot do without
 };
 
+/// Where the boundary vertices of smooth curved patches lie. Those of curves are on the curve.
+enum class PatchVerts {
+  Balanced,  ///< beside the surface, so that quads err to both sides: less than half the distance
+  OnSurface
+};
+
 struct FitOptions {
   CarveOptions carve;
   bool do_carve = true;  ///< false: the mesh already stands for the object
@@ -24,6 +30,7 @@ struct FitOptions {
   FeatureOptions features;  ///< min_length is set by the stage from the mesh's edge length
   double snap_quality =
       0.2;  ///< boundary vertices move to their targets while the scaled Jacobian stays above
+  PatchVerts patch_verts = PatchVerts::Balanced;
 };
 
 /// What became of one feature curve.

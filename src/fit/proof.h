@@ -1,0 +1,16 @@
+// Positivity inside hexes, as the passes that must not lose it see it.
+#pragma once
+
+#include <vector>
+
+#include "fit/fit_state.h"
+
+namespace hexwright::fitting {
+
+/// Hexes whose Jacobian is not proven positive everywhere inside, in order.
+std::vector<HexId> find_unproven(const HexMesh& mesh);
+
+/// How many of them are at the vertex.
+int count_unproven_around(const FitState& state, VertId v);
+
+}  // namespace hexwright::fitting
