@@ -1,10 +1,21 @@
-# Installs the library, its headers and a CMake package: find_package(hexwright) gives hexwright::hexwright.
+# Installs the library, its headers and a CMake package: find_package(hexwright) gives hexwright::hexwright, and
+# find_package(hexwright COMPONENTS ilp) also the integer-program oracle hexwright::ilp where it was built.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS hexwright EXPORT hexwright-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET hexwright_ilp)
+  # An export set of its own: the core package must load where HiGHS is missing.
+  install(TARGETS hexwright_ilp EXPORT hexwright-ilp-targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT hexwright-ilp-targets NAMESPACE hexwright::
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
+  install(FILES cmake/FindHiGHS.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
+  # Where the solver was found, as a hint for projects that use the package on this machine.
+  get_filename_component(hexwright_highs_dir "${HiGHS_INCLUDE_DIR}" DIRECTORY)
+endif()
 install(DIRECTORY include/hexwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hexwright-targets NAMESPACE hexwright::
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)

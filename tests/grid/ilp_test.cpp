@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "hexwright/base/error.h"
 #include "hexwright/grid/ilp.h"
 
 #include "grid/blocks.h"
@@ -102,6 +103,14 @@ TEST(Ilp, WholeHierarchyIsNeverAboveTheDescent) {
     }
 }
 
+TEST(Ilp, RejectsWhatBlocksAreNotDefinedFor) {
+  const Grid grid = test::unsplit_grid({{0, 0, 0}});
+  EXPECT_THROW(complete_by_ilp(grid, {Balance::Relaxed, IlpScope::Depth, 1}, {}), Error);
+  Grid broken = grid;
+  broken.cells.clear();
+  EXPECT_THROW(complete_by_ilp(broken, {Balance::Weak, IlpScope::Depth, 1}, {}), Error);
+}
+
 TEST(Ilp, TellsItsSolver) { EXPECT_EQ(ilp_solver_name().rfind("HiGHS ", 0), 0u); }
 
 }  // namespace
@@ -109,6 +118,6 @@ TEST(Ilp, TellsItsSolver) { EXPECT_EQ(ilp_solver_name().rfind("HiGHS ", 0), 0u);
 #else
 TEST(Ilp, LabellingEqualsTheFullProgramAtOneDepth) {
   GTEST_SKIP()
-      << "needs HiGHS: python3 -m pip install --target build/deps highsbox, then configure";
+      << "needs HiGHS: run scripts/setup, then configure again";
 }
 #endif

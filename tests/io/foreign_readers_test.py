@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Opens files written by hexwright with the readers of VTK and meshio.
 
-Usage: foreign_readers_test.py vtk|meshio WRITE_SAMPLES_PROGRAM
-Exit code 77 (skipped) when the module is not installed; `pip install vtk meshio` brings both.
+Usage: foreign_readers_test.py vtkmodules|meshio WRITE_SAMPLES_PROGRAM
+Exit code 77 (skipped) when the module is not installed; scripts/setup unpacks both under build/deps. Of VTK only the
+modules that read files are loaded: the rest would need a display's libraries.
 """
 import importlib.util
 import json
@@ -39,11 +40,11 @@ def check_vtk_mesh(grid, samples, has_sets):
 
 def check_vtk_htg(tree_grid, samples):
     """Walks VTK's trees and compares centre and level of every leaf."""
-    import vtk
+    from vtkmodules.vtkCommonDataModel import vtkHyperTreeGridNonOrientedGeometryCursor
 
     levels = tree_grid.GetCellData().GetArray("level")
     leaves = []
-    cursor = vtk.vtkHyperTreeGridNonOrientedGeometryCursor()
+    cursor = vtkHyperTreeGridNonOrientedGeometryCursor()
 
     def visit():
         if cursor.IsLeaf():
@@ -73,14 +74,15 @@ def check_vtk_htg(tree_grid, samples):
 
 
 def run_vtk(folder, samples):
-    import vtk
+    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridReader
+    from vtkmodules.vtkIOXML import vtkXMLHyperTreeGridReader, vtkXMLUnstructuredGridReader
 
-    check_vtk_mesh(read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "box.vtu"), samples, False)
-    check_vtk_mesh(read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "sets.vtu"), samples, True)
-    check_vtk_mesh(read_vtk(vtk.vtkUnstructuredGridReader(), folder / "box.vtk"), samples, False)
-    check_vtk_mesh(read_vtk(vtk.vtkUnstructuredGridReader(), folder / "sets.vtk"), samples, True)
-    check_vtk_htg(read_vtk(vtk.vtkXMLHyperTreeGridReader(), folder / "grid.htg"), samples)
-    grid = read_vtk(vtk.vtkXMLUnstructuredGridReader(), folder / "grid.vtu")
+    check_vtk_mesh(read_vtk(vtkXMLUnstructuredGridReader(), folder / "box.vtu"), samples, False)
+    check_vtk_mesh(read_vtk(vtkXMLUnstructuredGridReader(), folder / "sets.vtu"), samples, True)
+    check_vtk_mesh(read_vtk(vtkUnstructuredGridReader(), folder / "box.vtk"), samples, False)
+    check_vtk_mesh(read_vtk(vtkUnstructuredGridReader(), folder / "sets.vtk"), samples, True)
+    check_vtk_htg(read_vtk(vtkXMLHyperTreeGridReader(), folder / "grid.htg"), samples)
+    grid = read_vtk(vtkXMLUnstructuredGridReader(), folder / "grid.vtu")
     assert grid.GetNumberOfCells() == len(samples["leaves"])
 
 
@@ -117,7 +119,7 @@ def main():
         folder = Path(name)
         subprocess.run([program, name], check=True)
         samples = json.loads((folder / "samples.json").read_text())
-        {"vtk": run_vtk, "meshio": run_meshio}[module](folder, samples)
+        {"vtkmodules": run_vtk, "meshio": run_meshio}[module](folder, samples)
     print(f"{module} reads everything as it was written")
     return 0
 

@@ -1,6 +1,7 @@
 // Completion as an integer program: the paper's own formulation, kept as an oracle.
 //
-// In the library hexwright_ilp, built when HiGHS is found; the core library needs no solver.
+// In the library hexwright::ilp, built when HiGHS is found; the core library needs no solver. From an
+// installed package: find_package(hexwright COMPONENTS ilp).
 //
 // Based on: Pitzalis et al. 2021, section 4 (one program per depth, 308 exclusions per vertex).
 // Differs: the whole hierarchy can also be one program, which certifies how far completion is from
@@ -33,8 +34,8 @@ struct IlpResult {
 };
 
 /// Block pairing by integer programming. For small grids: the program grows by about a hundred rows
-/// per cell. Errors: as complete(); OutOfResources when the solver fails or finds no solution in
-/// time.
+/// per cell. Errors: as complete() with blocks, so BadArgument for relaxed balance, under which
+/// blocks are not defined; OutOfResources when the solver fails or finds no solution in time.
 IlpResult complete_by_ilp(const Grid& grid, const IlpOptions& options, const Context& context);
 
 /// Name and version of the solver.
