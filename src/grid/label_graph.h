@@ -13,6 +13,11 @@ namespace hexwright {
 
 using LabelMask = std::uint8_t;  ///< bit p: label p
 
+/// One leaf in the solver's costs. Ties go to blocks with even centres, which touch fewer nodes of
+/// the depth above: two per axis with their neighbours, not three. That rides in the low bits.
+inline constexpr int kTieBits = 24;
+inline constexpr std::int64_t kLeafCost = std::int64_t{1} << kTieBits;
+
 /// One cluster's view of a conflict: the labels of the other that each own label forbids.
 struct LabelEdge {
   std::uint32_t other = 0;
@@ -25,12 +30,14 @@ struct LabelGraph {
   std::vector<LabelMask> allowed;  ///< labels still possible
 
   std::size_t num_nodes() const { return costs.size(); }
-  std::int64_t least_cost(std::size_t node) const {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (Parity p = 0; p < kNumParities; ++p)
-      if (allowed[node] >> p & 1) least = std::min(least, costs[node][p]);
-    return least;
+  /// The allowed label of least cost; some label must be allowed.
+  Parity cheapest_label(std::size_t node) const {
+    Parity best = std::countr_zero(unsigned{allowed[node]});
+    for (Parity p = best + 1; p < kNumParities; ++p)
+      if ((allowed[node] >> p & 1) && costs[node][p] < costs[node][best]) best = p;
+    return best;
   }
+  std::int64_t least_cost(std::size_t node) const { return costs[node][cheapest_label(node)]; }
 };
 
 /// Labels per node and their total cost.
@@ -45,11 +52,24 @@ struct PrunedLabel {
   std::uint8_t label = 0, better = 0;
 };
 
-/// Removes labels that some other label of the same node makes useless; an optimal labelling stays.
-/// Returns them in order of removal: replacing them in that order keeps any labelling feasible.
-std::vector<PrunedLabel> prune_labels(LabelGraph& graph);
+/// Removes labels that some other label of the same node makes useless, and then edges that forbid
+/// nothing any more; an optimal labelling stays. Returns the labels in order of removal: replacing
+/// them in that order keeps any labelling feasible.
+std::vector<PrunedLabel> reduce_graph(LabelGraph& graph);
+
+/// Connected groups of at least two nodes, each sorted.
+std::vector<std::vector<std::uint32_t>> find_groups(const LabelGraph& graph);
+
+/// The group as a graph of its own, numbered in the group's order. `local`: scratch, one entry per
+/// node of the graph.
+LabelGraph subgraph(const LabelGraph& graph, const std::vector<std::uint32_t>& group,
+                    std::vector<std::uint32_t>& local);
+
+/// A cost that no labelling reaches: of a graph whose nodes have no compatible labels.
+inline constexpr std::int64_t kInfeasibleCost = std::numeric_limits<std::int64_t>::max() / 4;
 
 /// Exact, by eliminating one node after the other; absent when a table would exceed the limit.
+/// Without labels and of cost kInfeasibleCost when the allowed labels exclude each other.
 std::optional<Labelling> solve_by_elimination(const LabelGraph& graph, std::size_t table_entries);
 
 struct SearchResult {
@@ -63,8 +83,14 @@ struct SearchResult {
 SearchResult solve_by_search(const LabelGraph& graph, const Labelling& start,
                              std::size_t max_nodes);
 
-/// For groups of any size: a labelling improved part by part, and the bound of the parts alone.
-SearchResult solve_by_parts(const LabelGraph& graph, const Labelling& start);
+/// By message passing: for groups of any size, mostly the optimum. What the messages leave is tried
+/// by elimination with tables up to the limit.
+SearchResult solve_large_group(const LabelGraph& graph, const Labelling& start,
+                               std::size_t table_entries);
+
+/// Improves a labelling of a group of any size: parts of it are solved exactly while the labels
+/// around them stay.
+void improve_by_parts(const LabelGraph& graph, Labelling& labelling);
 
 /// The best single label for all nodes, improved node by node. All labels must be allowed.
 Labelling make_start(const LabelGraph& graph);

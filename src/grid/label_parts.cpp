@@ -1,8 +1,4 @@
-// Groups of clusters too large for exact search: a good labelling and a proven bound, part by part.
-//
-// Leaving out the conflicts between parts can only make labellings cheaper, so the parts' exact
-// optima add up to a lower bound. The labelling itself is improved by solving one part exactly
-// while the labels around it stay.
+// Improves labellings of groups of clusters too large for exact search, part by part.
 #include <algorithm>
 #include <numeric>
 
@@ -11,9 +7,9 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kPartSize = 40;
-constexpr std::size_t kTableEntries = std::size_t{1} << 15;
-constexpr int kRounds = 3;
+constexpr std::size_t kPartSize = 24;
+constexpr std::size_t kTableEntries = std::size_t{1} << 12;
+constexpr int kRounds = 2;
 
 using Part = std::vector<std::uint32_t>;
 
@@ -40,8 +36,8 @@ std::vector<Part> make_parts(const LabelGraph& graph, int round) {
   return parts;
 }
 
-/// The part alone; `fixed`, when given, are labels that the nodes around it keep.
-LabelGraph part_graph(const LabelGraph& graph, const Part& part, const Labelling* fixed) {
+/// The part alone, with the labels that those around it, as labelled, leave it.
+LabelGraph part_graph(const LabelGraph& graph, const Part& part, const Labelling& around) {
   LabelGraph out;
   for (const std::uint32_t node : part) {
     LabelMask allowed = graph.allowed[node];
@@ -51,9 +47,9 @@ LabelGraph part_graph(const LabelGraph& graph, const Part& part, const Labelling
       if (found != part.end() && *found == e.other) {
         inner.push_back(e);
         inner.back().other = static_cast<std::uint32_t>(found - part.begin());
-      } else if (fixed) {
+      } else {
         for (Parity p = 0; p < kNumParities; ++p)
-          if (e.forbids[p] >> fixed->labels[e.other] & 1)
+          if (e.forbids[p] >> around.labels[e.other] & 1)
             allowed = static_cast<LabelMask>(allowed & ~(1 << p));
       }
     }
@@ -64,17 +60,8 @@ LabelGraph part_graph(const LabelGraph& graph, const Part& part, const Labelling
   return out;
 }
 
-/// Least cost of the part without its surroundings; halves it where tables would be too large.
-std::int64_t part_bound(const LabelGraph& graph, const Part& part) {
-  if (const auto exact = solve_by_elimination(part_graph(graph, part, nullptr), kTableEntries))
-    return exact->cost;
-  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-  return part_bound(graph, Part(part.begin(), middle)) +
-         part_bound(graph, Part(middle, part.end()));
-}
-
 void improve_part(const LabelGraph& graph, const Part& part, Labelling& at) {
-  const LabelGraph alone = part_graph(graph, part, &at);
+  const LabelGraph alone = part_graph(graph, part, at);
   for (const LabelMask allowed : alone.allowed)
     if (allowed == 0) return;
   const auto exact = solve_by_elimination(alone, kTableEntries);
@@ -88,14 +75,9 @@ void improve_part(const LabelGraph& graph, const Part& part, Labelling& at) {
 
 }  // namespace
 
-SearchResult solve_by_parts(const LabelGraph& graph, const Labelling& start) {
-  SearchResult out;
-  for (const Part& part : make_parts(graph, 0)) out.lower_bound += part_bound(graph, part);
-  out.best = start;
+void improve_by_parts(const LabelGraph& graph, Labelling& labelling) {
   for (int round = 0; round < kRounds; ++round)
-    for (const Part& part : make_parts(graph, round)) improve_part(graph, part, out.best);
-  out.is_optimal = out.best.cost == out.lower_bound;
-  return out;
+    for (const Part& part : make_parts(graph, round)) improve_part(graph, part, labelling);
 }
 
 }  // namespace hexwright

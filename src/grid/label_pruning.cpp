@@ -1,0 +1,74 @@
+// Labels that no best labelling needs: dominance and arc consistency until nothing changes.
+//
+// Based on: Desmet et al., "The dead-end elimination theorem and its use in protein side-chain
+// positioning", Nature 356, 1992. Differs: pair costs are hard exclusions only.
+#include <algorithm>
+
+#include "grid/label_graph.h"
+
+namespace hexwright {
+namespace {
+
+/// Whether `better` can replace `label` of a node in every labelling at no cost.
+bool dominates(const LabelGraph& graph, std::size_t node, Parity better, Parity label) {
+  const LabelCosts& c = graph.costs[node];
+  if (c[better] > c[label]) return false;
+  for (const LabelEdge& e : graph.edges[node])
+    if (e.forbids[better] & ~e.forbids[label] & graph.allowed[e.other]) return false;
+  return true;
+}
+
+bool prune_node(LabelGraph& graph, std::uint32_t node, std::vector<PrunedLabel>& pruned) {
+  LabelMask& allowed = graph.allowed[node];
+  const LabelMask before = allowed;
+  for (Parity label = 0; label < kNumParities; ++label) {
+    if (!(allowed >> label & 1)) continue;
+    for (const LabelEdge& e : graph.edges[node])  // excluded by every choice of a neighbour
+      if ((graph.allowed[e.other] & ~e.forbids[label]) == 0)
+        allowed = static_cast<LabelMask>(allowed & ~(1 << label));
+    if (!(allowed >> label & 1)) continue;
+    for (Parity better = 0; better < kNumParities; ++better) {
+      if (better == label || !(allowed >> better & 1)) continue;
+      if (dominates(graph, node, better, label)) {
+        pruned.push_back(
+            {node, static_cast<std::uint8_t>(label), static_cast<std::uint8_t>(better)});
+        allowed = static_cast<LabelMask>(allowed & ~(1 << label));
+        break;
+      }
+    }
+  }
+  return allowed != before;
+}
+
+/// Drops the edges that no longer forbid anything, so that pruned groups fall apart.
+void drop_idle_edges(LabelGraph& graph) {
+  for (std::size_t u = 0; u < graph.num_nodes(); ++u)
+    std::erase_if(graph.edges[u], [&](const LabelEdge& e) {
+      for (Parity p = 0; p < kNumParities; ++p)
+        if ((graph.allowed[u] >> p & 1) && (e.forbids[p] & graph.allowed[e.other])) return false;
+      return true;
+    });
+}
+
+}  // namespace
+
+std::vector<PrunedLabel> reduce_graph(LabelGraph& graph) {
+  std::vector<PrunedLabel> pruned;
+  std::vector<std::uint32_t> queue(graph.num_nodes());
+  std::vector<char> is_queued(graph.num_nodes(), 1);
+  for (std::uint32_t u = 0; u < graph.num_nodes(); ++u) queue[u] = u;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const std::uint32_t u = queue[i];
+    is_queued[u] = 0;
+    if (!prune_node(graph, u, pruned)) continue;
+    for (const LabelEdge& e : graph.edges[u])
+      if (!is_queued[e.other]) {
+        is_queued[e.other] = 1;
+        queue.push_back(e.other);
+      }
+  }
+  drop_idle_edges(graph);
+  return pruned;
+}
+
+}  // namespace hexwright
