@@ -1,4 +1,7 @@
 // hexwright polycube: samples a polycube map adaptively.
+#include <array>
+#include <functional>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -22,8 +25,21 @@ namespace {
 
 struct PolycubeCommand {
   std::string object, polycube, output, report, picture, grid;
+  double max_edge = 0;                       // share of the diagonal
+  std::vector<std::array<double, 7>> boxes;  // low corner, high corner, edge length; world units
   PolycubeOptions options;
 };
+
+nlohmann::ordered_json folded_to_json(const std::vector<FoldedHex>& folded) {
+  auto json = nlohmann::ordered_json::array();
+  for (const FoldedHex& f : folded)
+    json.push_back({{"hex", f.hex.value()},
+                    {"center", {f.center.x, f.center.y, f.center.z}},
+                    {"scaled_jacobian", f.scaled_jacobian},
+                    {"object_tet", f.tet.value() + 1},
+                    {"map_is_folded_there", f.is_map_folded}});
+  return json;
+}
 
 std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
   nlohmann::ordered_json json;
@@ -39,6 +55,9 @@ std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
                       {"cells", r.num_cells},
                       {"bridged_vertices", r.num_bridged},
                       {"inverted_after_mapping", r.num_inverted_mapped},
+                      {"rounds", r.num_rounds},
+                      {"max_distance", r.max_distance},
+                      {"folded_hexes", folded_to_json(r.folded)},
                       {"warnings", r.warnings}};
   json["verdict"] = nlohmann::ordered_json::parse(verdict_to_json(verdict));
   return json.dump(2) + "\n";
@@ -56,7 +75,30 @@ void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, con
       "hexes inverted before the optimisation",
       r.num_tets, r.num_nonpositive_object, r.num_nonpositive_polycube, r.num_bridged,
       r.num_inverted_mapped));
+  for (const FoldedHex& f : r.folded)
+    console.print(fmt::format(
+        "  inverted: hex {} at ({:.4g}, {:.4g}, {:.4g}), scaled Jacobian {:.2f}, in tet {} of the "
+        "object{}",
+        f.hex.value(), f.center.x, f.center.y, f.center.z, f.scaled_jacobian, f.tet.value() + 1,
+        f.is_map_folded ? ", where the map is folded" : ""));
   print_verdict(verdict, console);
+}
+
+// The least of the edges asked for at a point.
+std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
+                                                   const TetMesh& object) {
+  if (cmd.max_edge <= 0 && cmd.boxes.empty()) return {};
+  Box3 box;
+  for (const Vec3& p : object.positions) box.extend(p);
+  const double everywhere =
+      cmd.max_edge > 0 ? cmd.max_edge * box.diagonal() : std::numeric_limits<double>::infinity();
+  return [everywhere, boxes = cmd.boxes](const Vec3& p) {
+    double edge = everywhere;
+    for (const auto& b : boxes)
+      if (p.x >= b[0] && p.y >= b[1] && p.z >= b[2] && p.x <= b[3] && p.y <= b[4] && p.z <= b[5])
+        edge = std::min(edge, b[6]);
+    return edge;
+  };
 }
 
 void run(const PolycubeCommand& cmd, Program& program) {
@@ -64,8 +106,10 @@ void run(const PolycubeCommand& cmd, Program& program) {
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start();
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
-  const PolycubeResult result = naming_file(
-      cmd.polycube, [&] { return mesh_polycube(object, polycube, cmd.options, context); });
+  PolycubeOptions options = cmd.options;
+  options.max_edge = make_size_field(cmd, object);
+  const PolycubeResult result =
+      naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
   JudgeOptions judge_options;
   judge_options.features.crease_angle = 4;  // the map's own curves count, not the surface's creases
   const Verdict verdict = judge(result.mesh, SurfaceTree(result.surface), judge_options, context);
@@ -79,6 +123,17 @@ void run(const PolycubeCommand& cmd, Program& program) {
   for (const std::string& w : result.report.warnings) program.console.warn(cmd.polycube + ": " + w);
   for (const std::string& f : verdict.failures) program.console.fail(cmd.output + ": " + f);
   program.exit_code = verdict.is_valid() ? Valid : FailsGate;
+}
+
+void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
+  sub.add_option_function<std::string>(
+      "--max-edge", [&cmd](const std::string& text) { cmd.max_edge = parse_share(text); },
+      "Split cells whose edges on the object are longer than this share of the diagonal");
+  sub.add_option_function<std::vector<std::array<double, 7>>>(
+         "--size-box",
+         [&cmd](const std::vector<std::array<double, 7>>& boxes) { cmd.boxes = boxes; },
+         "Longest edge inside a box of the object: x0 y0 z0 x1 y1 z1 edge; may be repeated")
+      ->type_name("BOX");
 }
 
 }  // namespace
@@ -95,6 +150,20 @@ void add_polycube_command(CLI::App& app, Program& program) {
          "A cell is split while two object points in it are farther apart than this share of the "
          "diagonal")
       ->default_str("2%");
+  sub->add_option_function<std::string>(
+         "--max-surface-error",
+         [cmd](const std::string& text) { cmd->options.max_surface_error = parse_share(text); },
+         "Cells are split where the mesh would miss the surface by more than this share of the "
+         "diagonal, and again where it does; 0 = off")
+      ->default_str("0.3%");
+  add_size_options(*sub, *cmd);
+  sub->add_option("--rounds", cmd->options.max_rounds,
+                  "Meshes made at most; more than one only where the surface was missed")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  sub->add_flag(
+      "--pad", cmd->options.pad,
+      "Put a layer of hexes under the boundary: for polycube edges where the object is smooth");
   sub->add_option("--spacing", cmd->options.spacing,
                   "Edge of a lattice cube in polycube units; 0 derives it")
       ->capture_default_str();

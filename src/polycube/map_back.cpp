@@ -8,45 +8,10 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "polycube/boundary_map.h"
+
 namespace hexwright::polycube {
 namespace {
-
-// The polycube's boundary by direction, for closest-point queries that cannot cross an edge.
-class BoundaryLocator {
- public:
-  BoundaryLocator(const Lattice& lattice) : lattice_(lattice) {
-    for (int direction = 0; direction < 6; ++direction) {
-      TriMesh part;
-      part.positions = lattice.tets.positions;
-      for (TriId f : lattice.facets.ids()) {
-        if (direction_of(f) != direction) continue;
-        part.tris.push_back(lattice.facets[f]);
-        facets_[direction].push_back(f);
-      }
-      trees_.emplace_back(std::move(part));
-    }
-  }
-
-  // The facet and point nearest to p among the facets of one direction.
-  struct Hit {
-    TriId facet;
-    Vec3 point;
-  };
-  Hit closest(const Vec3& p, int direction) const {
-    const auto hit = trees_[static_cast<std::size_t>(direction)].closest(p);
-    return {facets_[direction][hit->tri.index()], hit->point};
-  }
-
-  int direction_of(TriId f) const {
-    const Chart& chart = lattice_.charts[static_cast<std::size_t>(lattice_.facet_to_chart[f])];
-    return 2 * chart.axis + (chart.sign > 0 ? 1 : 0);
-  }
-
- private:
-  const Lattice& lattice_;
-  std::array<std::vector<TriId>, 6> facets_;
-  std::vector<SurfaceTree> trees_;
-};
 
 // A boundary edge or vertex of the polycube that separates charts.
 struct Crease {
@@ -54,20 +19,7 @@ struct Crease {
   std::array<int, 2> directions;  // of the two charts, ascending
 };
 
-Vec3 interpolate_facet(const TetMesh& object, const Lattice& lattice, TriId facet, const Vec3& p) {
-  const auto& f = lattice.facets[facet];
-  const Vec3 &a = lattice.tets.positions[f[0]], &b = lattice.tets.positions[f[1]],
-             &c = lattice.tets.positions[f[2]];
-  const Vec3 n = cross(b - a, c - a);
-  const double area_sq = norm_sq(n);
-  if (area_sq <= 0) return object.positions[f[0]];
-  const double wa = std::clamp(dot(cross(b - p, c - p), n) / area_sq, 0.0, 1.0);
-  const double wb = std::clamp(dot(cross(c - p, a - p), n) / area_sq, 0.0, 1.0 - wa);
-  return object.positions[f[0]] * wa + object.positions[f[1]] * wb +
-         object.positions[f[2]] * (1 - wa - wb);
-}
-
-std::vector<Crease> find_creases(const Lattice& lattice, const BoundaryLocator& boundary) {
+std::vector<Crease> find_creases(const Lattice& lattice, const BoundaryMap& boundary) {
   std::map<std::array<VertId, 2>, std::vector<TriId>> by_edge;
   for (TriId f : lattice.facets.ids())
     for (std::size_t k = 0; k < 3; ++k) {
@@ -180,7 +132,7 @@ class Mapper {
       case 1: {
         const auto hit = boundary_.closest(p, std::countr_zero(bits));
         place.facet = hit.facet;
-        return interpolate_facet(object_, lattice_, hit.facet, hit.point);
+        return boundary_.carry(object_, hit);
       }
       case 2: {
         const CreasePoint at = closest_crease(lattice_, creases_, directions, p);
@@ -198,7 +150,7 @@ class Mapper {
   const TetMesh& object_;
   const Lattice& lattice_;
   const TetLocator& locator_;
-  BoundaryLocator boundary_;
+  BoundaryMap boundary_;
   std::vector<Crease> creases_;
   std::map<VertId, int> corners_;
 };
@@ -209,7 +161,7 @@ ObjectFeatures object_features(const TetMesh& object, const Lattice& lattice) {
   ObjectFeatures features;
   features.surface.positions = object.positions;
   features.surface.tris = lattice.facets;
-  for (const Crease& crease : find_creases(lattice, BoundaryLocator(lattice)))
+  for (const Crease& crease : find_creases(lattice, BoundaryMap(lattice)))
     features.chart_edges.push_back(crease.verts);
   return features;
 }

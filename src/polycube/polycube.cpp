@@ -1,11 +1,17 @@
-// The polycube pipeline as a list of passes: check the pair, find the lattice, sample the map,
-// complete, dualise, map back, optimise on the object's surface.
+// The polycube pipeline as a list of passes: check the pair, find the lattice, sample the map; then
+// complete, dualise, map back and optimise on the object's surface, and all of these again over a
+// grid that is finer where the surface was missed.
 #include "hexwright/polycube/polycube.h"
 
-#include "hexwright/quality/hex_quality.h"
+#include <algorithm>
 
+#include "hexwright/quality/hex_quality.h"
+#include "hexwright/quality/surface_distance.h"
+
+#include "polycube/boundary_map.h"
 #include "polycube/lattice.h"
 #include "polycube/map_back.h"
+#include "polycube/refine_misses.h"
 #include "polycube/relax.h"
 #include "polycube/sample_map.h"
 #include "polycube/tet_locator.h"
@@ -59,6 +65,128 @@ void report_lattice(const polycube::Lattice& lattice, PolycubeReport& report) {
         " small facets of the polycube face no axis and follow their neighbours");
 }
 
+// Attempts are compared by inverted hexes first, then by distance.
+struct Attempt {
+  HexMesh mesh;
+  Grid grid;
+  std::size_t num_inverted = 0, num_bridged = 0, num_inverted_mapped = 0;
+  SurfaceDistance distance;
+
+  bool beats(const Attempt& other) const {
+    if (num_inverted != other.num_inverted) return num_inverted < other.num_inverted;
+    return distance.max_two_way() < other.distance.max_two_way();
+  }
+};
+
+class Mesher {
+ public:
+  Mesher(const TetMesh& object, const polycube::Lattice& lattice, const PolycubeOptions& options,
+         const Context& context)
+      : object_(object),
+        lattice_(lattice),
+        options_(options),
+        context_(context),
+        in_polycube_(lattice.tets),
+        in_object_(object),
+        boundary_(lattice),
+        features_(polycube::object_features(object, lattice)),
+        surface_(features_.surface) {}
+
+  PolycubeResult run(PolycubeReport report) {
+    Grid sampled =
+        polycube::sample_map({object_, lattice_, in_polycube_, boundary_}, options_, context_);
+    report.num_sampled_cells = sampled.num_cells();
+    Attempt best = attempt(sampled);
+    report.num_rounds = 1;
+    for (std::vector<Vec3> missed = best.distance.hot;
+         !missed.empty() && report.num_rounds < options_.max_rounds; ++report.num_rounds) {
+      if (!split_at(missed, sampled, report)) break;
+      Attempt next = attempt(sampled);
+      missed = next.distance.hot;
+      if (!next.beats(best)) continue;
+      best = std::move(next);
+      report.num_sampled_cells = sampled.num_cells();
+    }
+    return conclude(std::move(best), std::move(report));
+  }
+
+ private:
+  Attempt attempt(const Grid& sampled) {
+    Attempt a;
+    a.grid = complete(sampled, options_.complete, context_).grid;
+    const bool is_paired = options_.complete.pairing == Pairing::Blocks ||
+                           options_.complete.pairing == Pairing::Octree;
+    DualOptions dual_options;
+    dual_options.mode = is_paired ? DualMode::Blocks : DualMode::Sheets;
+    const DualResult dual = build_dual(a.grid, dual_options, context_);
+
+    auto mapped = polycube::map_back(dual.mesh, object_, lattice_, in_polycube_);
+    a.num_bridged = mapped.num_bridged;
+    a.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
+    polycube::relax(mapped, features_, lattice_, options_.pad, context_);
+    a.mesh = std::move(mapped.mesh);
+    a.num_inverted = summarize_quality(a.mesh).num_inverted;
+    if (options_.max_surface_error > 0) {
+      DistanceOptions distance;
+      distance.hot_threshold = options_.max_surface_error;
+      a.distance = measure_distance(a.mesh, surface_, distance);
+    }
+    return a;
+  }
+
+  // Splits the cells that the missed points map into; false when none can be split.
+  bool split_at(const std::vector<Vec3>& missed, Grid& sampled, PolycubeReport& report) const {
+    const auto marks = polycube::mark_cells_of_object_points(sampled, missed, in_object_, lattice_,
+                                                             options_.max_level);
+    const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+    if (num_marked == 0) return false;
+    if (sampled.num_cells() + 7 * num_marked > options_.max_cells) {
+      report.warnings.push_back("the surface is missed, but refining there needs more than " +
+                                std::to_string(options_.max_cells) + " cells; raise --max-cells");
+      return false;
+    }
+    sampled = split_cells(sampled, marks);
+    return true;
+  }
+
+  // Hexes that are not positive, with the tets that explain them.
+  std::vector<FoldedHex> find_folded(const HexMesh& mesh) const {
+    std::vector<FoldedHex> folded;
+    const auto quality = compute_scaled_jacobians(mesh);
+    std::vector<char> is_near_fold(object_.num_verts(), 0);
+    for (TetId t : lattice_.tets.tets.ids())
+      if (!(polycube::tet_det(polycube::tet_corners(lattice_.tets, t)) > 0))
+        for (VertId v : lattice_.tets.tets[t]) is_near_fold[v.index()] = 1;
+    for (HexId h : quality.ids()) {
+      if (quality[h] > 0) continue;
+      FoldedHex f{h, {}, quality[h], {}, false};
+      for (VertId v : mesh.hexes[h]) f.center += mesh.positions[v] * 0.125;
+      f.tet = in_object_.locate(f.center).tet;
+      for (VertId v : object_.tets[f.tet]) f.is_map_folded |= is_near_fold[v.index()] != 0;
+      folded.push_back(f);
+    }
+    return folded;
+  }
+
+  PolycubeResult conclude(Attempt best, PolycubeReport report) const {
+    report.num_cells = best.grid.num_cells();
+    report.num_bridged = best.num_bridged;
+    report.num_inverted_mapped = best.num_inverted_mapped;
+    report.max_distance = best.distance.max_two_way();
+    report.folded = find_folded(best.mesh);
+    return {std::move(best.mesh), std::move(best.grid), features_.surface, std::move(report)};
+  }
+
+  const TetMesh& object_;
+  const polycube::Lattice& lattice_;
+  const PolycubeOptions& options_;
+  const Context& context_;
+  polycube::TetLocator in_polycube_, in_object_;
+  polycube::BoundaryMap boundary_;
+  polycube::ObjectFeatures features_;
+  SurfaceTree surface_;
+};
+
 }  // namespace
 
 PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_in,
@@ -67,37 +195,13 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   TetMesh object = object_in, polycube = polycube_in;
   orient(object, polycube);
 
-  PolycubeResult result;
-  PolycubeReport& report = result.report;
   const polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
+  PolycubeReport report;
   report.num_tets = object.num_tets();
   report.num_nonpositive_object = count_nonpositive(object);
   report.num_nonpositive_polycube = count_nonpositive(lattice.tets);
   report_lattice(lattice, report);
-
-  const polycube::TetLocator locator(lattice.tets);
-  const Grid sampled = polycube::sample_map(object, lattice, locator, options, context);
-  report.num_sampled_cells = sampled.num_cells();
-
-  result.grid = complete(sampled, options.complete, context).grid;
-  report.num_cells = result.grid.num_cells();
-
-  DualOptions dual_options;
-  dual_options.mode =
-      options.complete.pairing == Pairing::Blocks || options.complete.pairing == Pairing::Octree
-          ? DualMode::Blocks
-          : DualMode::Sheets;
-  const DualResult dual = build_dual(result.grid, dual_options, context);
-
-  auto mapped = polycube::map_back(dual.mesh, object, lattice, locator);
-  report.num_bridged = mapped.num_bridged;
-  report.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
-
-  const auto features = polycube::object_features(object, lattice);
-  polycube::relax(mapped, features, lattice, context);
-  result.mesh = std::move(mapped.mesh);
-  result.surface = features.surface;
-  return result;
+  return Mesher(object, lattice, options, context).run(std::move(report));
 }
 
 }  // namespace hexwright

@@ -11,6 +11,7 @@
 
 #include "fit/finish.h"
 #include "fit/fit_state.h"
+#include "fit/pad_boundary.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
 #include "fit/untangle.h"
@@ -142,6 +143,29 @@ void pull_to_surface(FitState& state, const FitTarget& target, const Context& co
                         context);
 }
 
+// Where the polycube has an edge and the object is smooth, the two faces beside the edge belong to
+// one hex and lie in one plane; a layer gives each a hex of its own.
+void pad_and_smooth(FitState& state, const FitTarget& target, const Context& context) {
+  if (!fitting::pad_boundary(state)) {
+    context.warn("no layer fits under the mesh's boundary; it is optimised without padding");
+    return;
+  }
+  fitting::run_schedule(state, target,
+                        {{0.9, 1, 0}, fitting::geometric_weights(300, 1e5, 4), 2, 0.03, false},
+                        context);
+}
+
+// As at the end of a fit: exactly onto the surface where quality hardly suffers, then the worst
+// raised by gliding, then onto the surface as far as the least quality allows.
+void improve_worst(FitState& state, const FitTarget& target, const Context& context) {
+  constexpr double kGentle = 0.4, kLeast = 0.15;  // scaled Jacobians
+  fitting::polish_worst(state, target, {}, context);
+  fitting::snap_to_targets(state, target, kGentle);
+  fitting::lift_worst(state, target, {}, context);
+  fitting::snap_to_targets(state, target, kLeast);
+  fitting::lift_worst(state, target, {}, context);
+}
+
 PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, PatchId>& patch) {
   for (VertId v : quad)
     if (patch[v].is_valid()) return patch[v];
@@ -176,7 +200,7 @@ void label(const FitState& state, const HexMesh& mapped, const SurfaceTree& tree
 
 }  // namespace
 
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
+void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice, bool pad,
            const Context& context) {
   const FeatureGraph graph = chart_curves(object);
   SurfaceTree tree(object.surface);
@@ -191,8 +215,8 @@ void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& latt
   untangle(state, target, context);
   pull_to_surface(state, target, context);
   context.progress("improve", 0);
-  fitting::polish_worst(state, target, {}, context);
-  fitting::snap_to_targets(state, target, 0.1);
+  if (pad) pad_and_smooth(state, target, context);
+  improve_worst(state, target, context);
   mapped.mesh = std::move(state.mesh);
   label(state, mapped.mesh, tree, mapped.mesh.labels);
 }

@@ -9,8 +9,8 @@
 namespace hexwright::polycube {
 
 /// Labels the boundary (patch = chart, curves, corners) and moves vertices; never inverts a hex
-/// that is not inverted.
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
+/// that is not inverted. `pad`: one layer of hexes is put under the boundary.
+void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice, bool pad,
            const Context& context);
 
 }  // namespace hexwright::polycube

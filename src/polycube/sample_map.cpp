@@ -7,6 +7,9 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/grid/locate.h"
 
+#include "polycube/refine_misses.h"
+#include "polycube/surface_misses.h"
+
 namespace hexwright::polycube {
 namespace {
 
@@ -52,11 +55,11 @@ class Spread {
 // The tet vertices that lie in each cell of the grid.
 class VertsByCell {
  public:
-  VertsByCell(const Grid& grid, const TetMesh& tets) : offset_(grid.num_cells() + 1, 0) {
-    std::vector<CellId> vert_to_cell(tets.num_verts());
-    parallel_for(tets.num_verts(), [&](std::size_t v) {
-      vert_to_cell[v] = find_leaf_at(grid, tets.positions[VertId(v)]);
-    });
+  VertsByCell(const Grid& grid, const IdVector<VertId, Vec3>& places)
+      : offset_(grid.num_cells() + 1, 0) {
+    std::vector<CellId> vert_to_cell(places.size());
+    parallel_for(places.size(),
+                 [&](std::size_t v) { vert_to_cell[v] = find_leaf_at(grid, places[VertId(v)]); });
     for (CellId c : vert_to_cell)
       if (c.is_valid()) ++offset_[c.index() + 1];
     for (std::size_t c = 0; c < grid.num_cells(); ++c) offset_[c + 1] += offset_[c];
@@ -74,47 +77,103 @@ class VertsByCell {
   std::vector<VertId> verts_;
 };
 
-}  // namespace
+// The object's points that map into one cell.
+struct CellImage {
+  Spread spread;
+  double mean_edge = 0;
+  Vec3 center;
+};
 
-Grid sample_map(const TetMesh& object, const Lattice& lattice, const TetLocator& locator,
-                const PolycubeOptions& options, const Context& context) {
-  Box3 box;
-  for (const Vec3& p : object.positions) box.extend(p);
-  const double limit = options.max_stretch * box.diagonal();
+class Sampler {
+ public:
+  Sampler(const SampledMap& map, const PolycubeOptions& options)
+      : map_(map), options_(options), inward_(inward_places(map.lattice.tets)) {
+    Box3 box;
+    for (const Vec3& p : map.object.positions) box.extend(p);
+    diagonal_ = box.diagonal();
+  }
 
-  std::vector<CellSpec> cells;
-  for (const LatticeCoord& root : lattice.roots) cells.push_back({0, root});
-  Grid grid = make_grid({}, lattice.roots, cells);
-  for (int level = 0; level < options.max_level; ++level) {
-    context.check_cancelled();
-    context.progress("sample the map", double(level) / options.max_level);
-    const VertsByCell verts_by_cell(grid, lattice.tets);
-    std::vector<char> is_marked(grid.num_cells(), 0);
+  // The cells of this level that are to be split.
+  std::vector<char> mark(const Grid& grid, int level) const {
+    const VertsByCell verts_by_cell(grid, inward_);
+    std::vector<char> marks(grid.num_cells(), 0);
     parallel_for(
         grid.num_cells(),
-        [&](std::size_t c) {
-          if (grid.cells[CellId(c)].level != level) return;
-          const Box3 cell = cell_box(grid, CellId(c));
-          Spread spread;
-          for (VertId v : verts_by_cell[CellId(c)]) spread.add(object.positions[v]);
-          for (int k = 0; k < 27; ++k) {
-            const Vec3 at = {k % 3 / 2.0, k / 3 % 3 / 2.0, k / 9 % 3 / 2.0};
-            const Vec3 e = cell.extent();
-            spread.add(interpolate(
-                object, locator.locate(cell.lo + Vec3{at.x * e.x, at.y * e.y, at.z * e.z})));
-          }
-          is_marked[c] = level < options.min_level || spread.width() > limit;
+        [&](std::size_t i) {
+          const CellId c(i);
+          if (grid.cells[c].level != level) return;
+          marks[i] =
+              level < options_.min_level || is_coarse(carry(cell_box(grid, c), verts_by_cell[c]));
         },
         16);
-    const auto num_marked =
-        static_cast<std::size_t>(std::count(is_marked.begin(), is_marked.end(), 1));
+    if (options_.max_surface_error > 0) mark_misses(grid, level, marks);
+    return marks;
+  }
+
+ private:
+  bool is_coarse(const CellImage& image) const {
+    if (image.spread.width() > options_.max_stretch * diagonal_) return true;
+    return options_.max_edge && image.mean_edge > options_.max_edge(image.center);
+  }
+
+  CellImage carry(const Box3& cell, std::span<const VertId> verts) const {
+    CellImage image;
+    for (VertId v : verts) image.spread.add(map_.object.positions[v]);
+    std::array<Vec3, 27> at;
+    const Vec3 half = cell.extent() * 0.5;
+    for (int k = 0; k < 27; ++k) {
+      const Vec3 step = {k % 3 * half.x, k / 3 % 3 * half.y, k / 9 * half.z};
+      at[k] = interpolate(map_.object, map_.locator.locate(cell.lo + step));
+      image.spread.add(at[k]);
+    }
+    image.center = at[13];
+    constexpr int kStride[3] = {1, 3, 9};
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 4; ++k) {  // the four edges along the axis
+        const int low =
+            (k & 1) * 2 * kStride[(axis + 1) % 3] + (k >> 1) * 2 * kStride[(axis + 2) % 3];
+        image.mean_edge += distance(at[low], at[low + 2 * kStride[axis]]) / 12;
+      }
+    return image;
+  }
+
+  void mark_misses(const Grid& grid, int level, std::vector<char>& marks) const {
+    const auto is_missed = mark_surface_misses(grid, map_.object, map_.lattice, map_.boundary,
+                                               inward_, options_.max_surface_error * diagonal_);
+    for (CellId c : grid.cells.ids())
+      if (grid.cells[c].level == level) marks[c.index()] |= is_missed[c.index()];
+  }
+
+  const SampledMap& map_;
+  const PolycubeOptions& options_;
+  IdVector<VertId, Vec3> inward_;
+  double diagonal_ = 0;
+};
+
+void require_budget(const Grid& grid, std::size_t num_marked, int level,
+                    const PolycubeOptions& options) {
+  if (grid.num_cells() + 7 * num_marked <= options.max_cells) return;
+  throw Error(ErrorCode::OutOfResources,
+              "level " + std::to_string(level) + " of the polycube needs more than " +
+                  std::to_string(options.max_cells) +
+                  " cells; raise --max-cells or --max-stretch, or lower --max-level");
+}
+
+}  // namespace
+
+Grid sample_map(const SampledMap& map, const PolycubeOptions& options, const Context& context) {
+  const Sampler sampler(map, options);
+  std::vector<CellSpec> cells;
+  for (const LatticeCoord& root : map.lattice.roots) cells.push_back({0, root});
+  Grid grid = make_grid({}, map.lattice.roots, cells);
+  for (int level = 0; level < options.max_level; ++level) {
+    context.check_cancelled();
+    context.progress("sample the map", static_cast<double>(level) / options.max_level);
+    const auto marks = sampler.mark(grid, level);
+    const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
     if (num_marked == 0) break;
-    if (grid.num_cells() + 7 * num_marked > options.max_cells)
-      throw Error(ErrorCode::OutOfResources,
-                  "level " + std::to_string(level + 1) + " of the polycube needs more than " +
-                      std::to_string(options.max_cells) +
-                      " cells; raise --max-cells or --max-stretch, or lower --max-level");
-    grid = split_cells(grid, is_marked);
+    require_budget(grid, num_marked, level + 1, options);
+    grid = split_cells(grid, marks);
   }
   return grid;
 }

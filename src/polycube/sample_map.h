@@ -3,16 +3,28 @@
 
 #include "hexwright/polycube/polycube.h"
 
+#include "polycube/boundary_map.h"
 #include "polycube/lattice.h"
 #include "polycube/tet_locator.h"
 
 namespace hexwright::polycube {
 
-/// Splits root cubes, level by level, while two points of the object that map into a cell lie
-/// farther apart than max_stretch times the object's diagonal (paper, section 6.2). Measured on the
-/// images of 27 points of the cell and on the object's vertices that map into it. Errors:
-/// OutOfResources past max_cells.
-Grid sample_map(const TetMesh& object, const Lattice& lattice, const TetLocator& locator,
-                const PolycubeOptions& options, const Context& context);
+/// What sampling needs of a map; views that must outlive it.
+struct SampledMap {
+  const TetMesh& object;
+  const Lattice& lattice;
+  const TetLocator& locator;  ///< in the polycube
+  const BoundaryMap& boundary;
+};
+
+/// Splits root cubes, level by level, while in a cell
+/// - two points of the object are farther apart than max_stretch times the object's diagonal
+/// (paper,
+///   section 6.2), measured on the images of 27 points and the object's vertices that map into it,
+/// - or its mapped edges are longer than the size field asks for,
+/// - or its faces on the boundary, mapped, stray from the object's surface by more than
+///   max_surface_error.
+/// Errors: OutOfResources past max_cells.
+Grid sample_map(const SampledMap& map, const PolycubeOptions& options, const Context& context);
 
 }  // namespace hexwright::polycube

@@ -5,6 +5,7 @@
 // Grid-based Hexahedral Meshing", ACM TOG 40(6), 2021, section 6.2 (Figures 14 and 15).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,14 +18,32 @@
 namespace hexwright {
 
 struct PolycubeOptions {
-  double spacing =
-      0;  ///< edge of a root cube in polycube units; 0 = derived from the closest two planes
-  double max_stretch =
-      1.0 /
-      50;  ///< split while two object points of a cell are farther apart; share of the diagonal
+  /// Edge of a root cube in polycube units; 0 derives it from the closest two planes.
+  double spacing = 0;
+  /// Split while two object points of a cell are farther apart than this share of the diagonal.
+  double max_stretch = 1.0 / 50;
+  /// Distance between the mesh and the object's surface, both ways, as a share of the diagonal:
+  /// cells are split where it would be exceeded, and again where a finished mesh exceeds it. 0 =
+  /// off.
+  double max_surface_error = 0.003;
+  /// Size field: the longest mean edge wanted around an object point, world units; empty = none.
+  std::function<double(const Vec3&)> max_edge;
   int min_level = 0, max_level = 6;
+  int max_rounds = 4;  ///< meshes made at most; more than one only where the surface was missed
   std::size_t max_cells = 2'000'000;
+  bool pad = false;  ///< one layer of hexes under the boundary: better where the polycube has edges
+                     ///< and the object none, at the price of a hex per boundary quad
   CompleteOptions complete;
+};
+
+/// A hex that could not be made positive, and where.
+struct FoldedHex {
+  HexId hex;
+  Vec3 center;  ///< on the object
+  double scaled_jacobian = 0;
+  TetId tet;  ///< the tet of the object that holds the centre
+  bool is_map_folded =
+      false;  ///< that tet, or one that shares a vertex, is not positive in the map
 };
 
 struct PolycubeReport {
@@ -37,6 +56,9 @@ struct PolycubeReport {
   std::size_t num_bridged =
       0;  ///< vertices located outside every positive tet, taken to the nearest
   std::size_t num_inverted_mapped = 0;  ///< hexes not positive right after mapping back
+  int num_rounds = 0;                   ///< meshes made; the best of them is the result
+  double max_distance = 0;              ///< two-way, share of the diagonal; 0 when not measured
+  std::vector<FoldedHex> folded;        ///< hexes of the result that are not positive
   std::vector<std::string> warnings;
 };
 
