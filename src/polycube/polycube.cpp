@@ -123,7 +123,7 @@ class Mesher {
     auto mapped = polycube::map_back(dual.mesh, object_, lattice_, in_polycube_);
     a.num_bridged = mapped.num_bridged;
     a.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
-    polycube::relax(mapped, features_, lattice_, options_.pad, context_);
+    polycube::relax(mapped, features_, lattice_, relax_options(), context_);
     a.mesh = std::move(mapped.mesh);
     a.num_inverted = summarize_quality(a.mesh).num_inverted;
     if (options_.max_surface_error > 0) {
@@ -132,6 +132,12 @@ class Mesher {
       a.distance = measure_distance(a.mesh, surface_, distance);
     }
     return a;
+  }
+
+  // A third of the distance allowed is left to what lies between the vertices.
+  polycube::RelaxOptions relax_options() const {
+    const double share = options_.max_surface_error > 0 ? options_.max_surface_error : 0.003;
+    return {options_.pad, 0.33 * share * surface_.box().diagonal()};
   }
 
   // Splits the cells that the missed points map into; false when none can be split.

@@ -155,14 +155,26 @@ void pad_and_smooth(FitState& state, const FitTarget& target, const Context& con
                         context);
 }
 
+// Vertices farther than `distance` from what they belong to.
+std::vector<char> find_far(const FitState& state, double distance) {
+  std::vector<char> is_far(state.num_verts(), 0);
+  for (VertId v : state.kind.ids())
+    is_far[v.index()] = state.is_boundary(v) && state.residual(v) * state.size[v] > distance;
+  return is_far;
+}
+
 // As at the end of a fit: exactly onto the surface where quality hardly suffers, then the worst
-// raised by gliding, then onto the surface as far as the least quality allows.
-void improve_worst(FitState& state, const FitTarget& target, const Context& context) {
+// raised by gliding, then what is still off the surface brought back.
+void improve_worst(FitState& state, const FitTarget& target, double near_surface,
+                   const Context& context) {
   constexpr double kGentle = 0.4, kLeast = 0.15;  // scaled Jacobians
   fitting::polish_worst(state, target, {}, context);
   fitting::snap_to_targets(state, target, kGentle);
   fitting::lift_worst(state, target, {}, context);
-  fitting::snap_to_targets(state, target, kLeast);
+  fitting::snap_to_targets(state, target, kGentle);
+  const auto is_far = find_far(state, near_surface);
+  if (std::find(is_far.begin(), is_far.end(), 1) == is_far.end()) return;
+  fitting::snap_to_targets(state, target, kLeast, is_far);
   fitting::lift_worst(state, target, {}, context);
 }
 
@@ -200,8 +212,8 @@ void label(const FitState& state, const HexMesh& mapped, const SurfaceTree& tree
 
 }  // namespace
 
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice, bool pad,
-           const Context& context) {
+void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
+           const RelaxOptions& options, const Context& context) {
   const FeatureGraph graph = chart_curves(object);
   SurfaceTree tree(object.surface);
   IdVector<TriId, PatchId> facet_to_patch(lattice.facets.size());
@@ -215,8 +227,8 @@ void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& latt
   untangle(state, target, context);
   pull_to_surface(state, target, context);
   context.progress("improve", 0);
-  if (pad) pad_and_smooth(state, target, context);
-  improve_worst(state, target, context);
+  if (options.pad) pad_and_smooth(state, target, context);
+  improve_worst(state, target, options.near_surface, context);
   mapped.mesh = std::move(state.mesh);
   label(state, mapped.mesh, tree, mapped.mesh.labels);
 }

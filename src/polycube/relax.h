@@ -8,9 +8,15 @@
 
 namespace hexwright::polycube {
 
+struct RelaxOptions {
+  bool pad = false;         ///< put one layer of hexes under the boundary
+  double near_surface = 0;  ///< world units; vertices farther off are brought back at any cost
+                            ///< short of nearly flat hexes, the others while quality hardly suffers
+};
+
 /// Labels the boundary (patch = chart, curves, corners) and moves vertices; never inverts a hex
-/// that is not inverted. `pad`: one layer of hexes is put under the boundary.
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice, bool pad,
-           const Context& context);
+/// that is not inverted.
+void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
+           const RelaxOptions& options, const Context& context);
 
 }  // namespace hexwright::polycube
