@@ -46,6 +46,7 @@ std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
   json["polycube"] = {{"tets", r.num_tets},
                       {"nonpositive_tets_object", r.num_nonpositive_object},
                       {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
+                      {"nonpositive_tets_after_repair", r.num_nonpositive_left},
                       {"charts", r.num_charts},
                       {"unaligned_facets", r.num_unaligned_facets},
                       {"max_plane_deviation", r.max_plane_deviation},
@@ -70,11 +71,12 @@ void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, con
       "{}: {} hexes from {} cells on {} lattice cubes (spacing {:.4g}, {} "
       "charts)",
       cmd.output, result.mesh.num_hexes(), r.num_cells, r.num_roots, r.spacing, r.num_charts));
-  console.print(fmt::format(
-      "  map: {} tets, not positive: {} in the object, {} in the polycube; {} vertices bridged, {} "
-      "hexes inverted before the optimisation",
-      r.num_tets, r.num_nonpositive_object, r.num_nonpositive_polycube, r.num_bridged,
-      r.num_inverted_mapped));
+  console.print(
+      fmt::format("  map: {} tets, not positive: {} in the object, {} in the polycube ({} after "
+                  "repair); {} vertices bridged, {} "
+                  "hexes inverted before the optimisation",
+                  r.num_tets, r.num_nonpositive_object, r.num_nonpositive_polycube,
+                  r.num_nonpositive_left, r.num_bridged, r.num_inverted_mapped));
   for (const FoldedHex& f : r.folded)
     console.print(fmt::format(
         "  inverted: hex {} at ({:.4g}, {:.4g}, {:.4g}), scaled Jacobian {:.2f}, in tet {} of the "

@@ -11,6 +11,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/surface_tree.h"
 
+#include "polycube/merge_charts.h"
 #include "polycube/tet_boundary.h"
 
 namespace hexwright::polycube {
@@ -105,17 +106,12 @@ void grow_charts(Lattice& lattice, const IdVector<TriId, int>& direction,
   for (TriId seed : lattice.facets.ids()) {
     if (lattice.facet_to_chart[seed] >= 0) continue;
     const int chart = static_cast<int>(lattice.charts.size());
-    Chart c{std::max(direction[seed], 0) / 2, direction[seed] % 2 == 1 ? 1 : -1, 0, 0};
-    double area = 0;
+    const Chart c{std::max(direction[seed], 0) / 2, direction[seed] % 2 == 1 ? 1 : -1, 0, 0};
     std::vector<TriId> stack = {seed};
     lattice.facet_to_chart[seed] = chart;
     while (!stack.empty()) {
       const TriId t = stack.back();
       stack.pop_back();
-      const auto g = facet_geometry(lattice.tets, lattice.facets[t]);
-      const double a = std::abs(g.normal[c.axis]);
-      area += a;
-      c.coordinate += a * g.center[c.axis];
       for (TriId other : neighbor[t])
         if (other.is_valid() && lattice.facet_to_chart[other] < 0 &&
             direction[other] == direction[seed]) {
@@ -123,9 +119,24 @@ void grow_charts(Lattice& lattice, const IdVector<TriId, int>& direction,
           stack.push_back(other);
         }
     }
-    if (area > 0) c.coordinate /= area;
     lattice.charts.push_back(c);
   }
+}
+
+// The area-weighted mean of each chart's facets along its axis.
+void measure_coordinates(Lattice& lattice) {
+  std::vector<double> area(lattice.charts.size(), 0);
+  for (Chart& chart : lattice.charts) chart.coordinate = 0;
+  for (TriId t : lattice.facets.ids()) {
+    const auto c = static_cast<std::size_t>(lattice.facet_to_chart[t]);
+    Chart& chart = lattice.charts[c];
+    const auto g = facet_geometry(lattice.tets, lattice.facets[t]);
+    const double a = std::abs(g.normal[chart.axis]);
+    area[c] += a;
+    chart.coordinate += a * g.center[chart.axis];
+  }
+  for (std::size_t c = 0; c < area.size(); ++c)
+    if (area[c] > 0) lattice.charts[c].coordinate /= area[c];
 }
 
 // Distinct plane coordinates of an axis, ascending.
@@ -142,7 +153,21 @@ std::vector<double> axis_planes(const std::vector<Chart>& charts, int axis, doub
   return planes;
 }
 
-double derive_spacing(const std::array<std::vector<double>, 3>& planes, double extent) {
+using AxisPlanes = std::array<std::vector<double>, 3>;
+
+AxisPlanes find_planes(Lattice& lattice, double extent) {
+  measure_coordinates(lattice);
+  AxisPlanes planes;
+  for (int axis = 0; axis < 3; ++axis) {
+    planes[axis] = axis_planes(lattice.charts, axis, kSamePlane * extent);
+    if (planes[axis].size() < 2)
+      throw Error(ErrorCode::BadGeometry, "the polycube has no two faces across axis " +
+                                              std::to_string(axis) + "; it encloses no volume");
+  }
+  return planes;
+}
+
+double derive_spacing(const AxisPlanes& planes, double extent) {
   double least = extent;
   for (const auto& p : planes)
     for (std::size_t i = 1; i < p.size(); ++i) least = std::min(least, p[i] - p[i - 1]);
@@ -221,14 +246,13 @@ Lattice fit_lattice(const TetMesh& polycube, double spacing) {
   for (const Vec3& p : polycube.positions) box.extend(p);
   const Vec3 e = box.extent();
   const double extent = std::max({e.x, e.y, e.z});
-  std::array<std::vector<double>, 3> planes;
-  for (int axis = 0; axis < 3; ++axis) {
-    planes[axis] = axis_planes(lattice.charts, axis, kSamePlane * extent);
-    if (planes[axis].size() < 2)
-      throw Error(ErrorCode::BadGeometry, "the polycube has no two faces across axis " +
-                                              std::to_string(axis) + "; it encloses no volume");
-  }
+  AxisPlanes planes = find_planes(lattice, extent);
   lattice.spacing = spacing > 0 ? spacing : derive_spacing(planes, extent);
+  lattice.num_merged_charts = merge_small_charts(lattice, neighbor, lattice.spacing);
+  if (lattice.num_merged_charts > 0) {
+    planes = find_planes(lattice, extent);
+    if (spacing <= 0) lattice.spacing = derive_spacing(planes, extent);
+  }
 
   std::array<std::vector<int>, 3> integers;
   std::array<int, 3> size;

@@ -26,8 +26,9 @@ struct Lattice {
   std::vector<Chart> charts;
   std::vector<LatticeCoord> roots;  ///< unit cubes inside, sorted (z, y, x)
   double spacing = 0;
-  double max_deviation = 0;       ///< share of the spacing
-  std::size_t num_unaligned = 0;  ///< facets that face no axis but are too small to matter
+  double max_deviation = 0;           ///< share of the spacing
+  std::size_t num_merged_charts = 0;  ///< too small for the lattice, given to a neighbour
+  std::size_t num_unaligned = 0;      ///< facets that face no axis but are too small to matter
 };
 
 /// `spacing` 0 derives it: the least distance of two planes of an axis, at least 1/16 of the

@@ -13,6 +13,7 @@
 #include "polycube/map_back.h"
 #include "polycube/refine_misses.h"
 #include "polycube/relax.h"
+#include "polycube/repair_map.h"
 #include "polycube/sample_map.h"
 #include "polycube/tet_locator.h"
 
@@ -63,6 +64,11 @@ void report_lattice(const polycube::Lattice& lattice, PolycubeReport& report) {
     report.warnings.push_back(
         std::to_string(lattice.num_unaligned) +
         " small facets of the polycube face no axis and follow their neighbours");
+  if (lattice.num_merged_charts > 0)
+    report.warnings.push_back(std::to_string(lattice.num_merged_charts) +
+                              " faces of the polycube are squeezed to less than the lattice shows; "
+                              "they are meshed as part "
+                              "of their neighbours, without edges of their own");
 }
 
 // Attempts are compared by inverted hexes first, then by distance.
@@ -201,13 +207,17 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   TetMesh object = object_in, polycube = polycube_in;
   orient(object, polycube);
 
-  const polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
+  polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
   PolycubeReport report;
   report.num_tets = object.num_tets();
   report.num_nonpositive_object = count_nonpositive(object);
   report.num_nonpositive_polycube = count_nonpositive(lattice.tets);
   report_lattice(lattice, report);
-  return Mesher(object, lattice, options, context).run(std::move(report));
+  auto repair = polycube::repair_map(object, lattice, context);
+  report.num_nonpositive_left = repair.num_nonpositive;
+  PolycubeResult result = Mesher(object, lattice, options, context).run(std::move(report));
+  for (FoldedHex& f : result.report.folded) f.tet = repair.to_input[f.tet];
+  return result;
 }
 
 }  // namespace hexwright

@@ -48,6 +48,7 @@ struct FoldedHex {
 
 struct PolycubeReport {
   std::size_t num_tets = 0, num_nonpositive_object = 0, num_nonpositive_polycube = 0;
+  std::size_t num_nonpositive_left = 0;  ///< in the polycube, after its map was repaired
   std::size_t num_charts = 0, num_unaligned_facets = 0;
   double max_plane_deviation =
       0;  ///< of a boundary vertex from its chart's plane, share of the spacing
