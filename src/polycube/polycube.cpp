@@ -134,7 +134,7 @@ class Mesher {
     a.num_inverted = summarize_quality(a.mesh).num_inverted;
     if (options_.max_surface_error > 0) {
       DistanceOptions distance;
-      distance.hot_threshold = options_.max_surface_error;
+      distance.hot_threshold = 0.9 * options_.max_surface_error;
       a.distance = measure_distance(a.mesh, surface_, distance);
     }
     return a;

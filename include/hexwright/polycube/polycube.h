@@ -28,8 +28,8 @@ struct PolycubeOptions {
   double max_surface_error = 0.003;
   /// Size field: the longest mean edge wanted around an object point, world units; empty = none.
   std::function<double(const Vec3&)> max_edge;
-  int min_level = 0, max_level = 6;
-  int max_rounds = 4;  ///< meshes made at most; more than one only where the surface was missed
+  int min_level = 0, max_level = 9;
+  int max_rounds = 6;  ///< meshes made at most; more than one only where the surface was missed
   std::size_t max_cells = 2'000'000;
   bool pad = false;  ///< one layer of hexes under the boundary: better where the polycube has edges
                      ///< and the object none, at the price of a hex per boundary quad
