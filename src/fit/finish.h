@@ -44,6 +44,20 @@ struct LiftOptions {
 void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& options,
                 const Context& context);
 
+struct AverageOptions {
+  int sweeps = 3;
+  int power = 8;  ///< the larger, the more a hex is judged by its worst corner alone
+  double tolerance = 0.01;
+};
+/// Raises the average scaled Jacobian of dirty vertices' surroundings within the motion their
+/// `move` allows; no move takes the least around a vertex below both `least` and what it was.
+void sweep_for_average(FitState& state, double least, const AverageOptions& options,
+                       const Context& context);
+/// Raises the average scaled Jacobian of the whole mesh with boundary vertices sliding only, then
+/// snaps them. The least falls nowhere below what it was.
+void raise_average(FitState& state, const FitTarget& target, const AverageOptions& options,
+                   const Context& context);
+
 /// Works on hexes whose Jacobian is not proven positive everywhere inside, letting go of the
 /// surface around them more and more; returns those that remain.
 std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context);

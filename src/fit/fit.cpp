@@ -28,6 +28,7 @@ namespace {
 
 using namespace fitting;
 
+constexpr int kSmoothRounds = 3;
 constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
 
 // The first hex with a corner determinant that is not positive.
@@ -113,6 +114,7 @@ class Fitter {
     clock_.run("lift", 0.95, [&] { lift_worst(state, target(), {}, context_); });
     clock_.run("balance", 0.96, [&] { balance(state); });
     clock_.run("snap", 0.97, [&] { settle(state); });
+    clock_.run("smooth", 0.975, [&] { smooth(state); });
     clock_.run("prove", 0.98, [&] { report_.unproven = mend_unproven(state, target(), context_); });
   }
 
@@ -206,6 +208,14 @@ class Fitter {
     state.update_sizes();
     run_schedule(state, target(), {{0.9, 1, 0}, geometric_weights(300, 1e5, 4), 2, 0.015, false},
                  context_);
+  }
+
+  // The average, as far as the least allows; the best offsets follow the sliding vertices.
+  void smooth(FitState& state) {
+    for (int round = 0; round < kSmoothRounds; ++round) {
+      if (round > 0) balance(state);
+      raise_average(state, target(), {}, context_);
+    }
   }
 
   void balance(FitState& state) {

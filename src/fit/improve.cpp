@@ -107,9 +107,7 @@ class Improver {
     for (int round = 0; round < 6; ++round) {
       context_.check_cancelled();
       update_slide_targets();
-      SweepOptions options{{0.9, 1, 0}, 0, 0.01};
-      options.quality_floor = best_min_ + 1e-9;
-      sweep(state_, options);
+      sweep_for_average(state_, best_min_ + 1e-9, {3, 8, 0.01}, context_);
     }
     keep_if_better();
   }

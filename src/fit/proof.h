@@ -10,6 +10,10 @@ namespace hexwright::fitting {
 /// Hexes whose Jacobian is not proven positive everywhere inside, in order.
 std::vector<HexId> find_unproven(const HexMesh& mesh);
 
+/// Hexes whose corners are better are nearly always positive inside: passes that check after every
+/// move leave those to the last pass.
+constexpr double kProvenQuality = 0.5;
+
 /// How many of them are at the vertex.
 int count_unproven_around(const FitState& state, VertId v);
 

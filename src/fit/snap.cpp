@@ -11,14 +11,15 @@ void snap_vertex(FitState& state, VertId v, double least_quality) {
   const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
   const Vec3 origin = state.mesh.positions[v];
   const double before = min_scaled_jacobian_around(origin, state.stars[v], positions);
-  const int unproven = count_unproven_around(state, v);
+  int unproven = -1;  // not counted yet
   double share = 1;
   for (int attempt = 0; attempt < 5; ++attempt, share *= 0.5) {
     const Vec3 there = origin + share * (state.target[v] - origin);
     const double after = min_scaled_jacobian_around(there, state.stars[v], positions);
     if (!(after > 0 && after >= std::min(before - 1e-9, least_quality))) continue;
+    if (after < kProvenQuality && unproven < 0) unproven = count_unproven_around(state, v);
     state.mesh.positions[v] = there;
-    if (count_unproven_around(state, v) <= unproven) return;
+    if (after >= kProvenQuality || count_unproven_around(state, v) <= unproven) return;
     state.mesh.positions[v] = origin;
   }
 }

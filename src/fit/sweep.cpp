@@ -5,6 +5,7 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "fit/proof.h"
 #include "fit/targets.h"
 
 namespace hexwright::fitting {
@@ -30,30 +31,65 @@ void mark_dirty(FitState& state, VertId v) {
   std::atomic_ref<char>(state.is_dirty[v]).store(1, std::memory_order_relaxed);
 }
 
-double solve_vertex(FitState& state, VertId v, const SweepOptions& options, VertexNewton& newton) {
-  ShapeEnergy shape = options.shape;
-  const double h = state.size[v];
-  if (options.untangle_share > 0) shape.untangle = options.untangle_share * h * h * h;
-  const Vec3 origin = state.mesh.positions[v];
-  const auto star = state.stars[v];
-  const double moved = newton.solve(v, star, make_goal(state, v, options.weight), shape,
-                                    IdSpan<VertId, Vec3>(state.mesh.positions));
-  if (moved > 0 && options.quality_floor > 0) {
-    const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
-    const double after = min_scaled_jacobian_around(state.mesh.positions[v], star, positions);
-    if (after < options.quality_floor &&
-        after < min_scaled_jacobian_around(origin, star, positions)) {
-      state.mesh.positions[v] = origin;
-      return 0;
+// Solves vertices one after the other; one object per thread.
+class Solver {
+ public:
+  Solver(FitState& state, const SweepOptions& options) : state_(state), options_(options) {}
+
+  void solve(VertId v) {
+    state_.is_dirty[v] = 0;
+    const double h = state_.size[v];
+    ShapeEnergy shape = options_.shape;
+    if (options_.untangle_share > 0) shape.untangle = options_.untangle_share * h * h * h;
+    const Vec3 origin = state_.mesh.positions[v];
+    const auto star = state_.stars[v];
+    const double moved =
+        newton_.solve(v, star, goal_of(v), shape, IdSpan<VertId, Vec3>(state_.mesh.positions));
+    if (moved > 0 && options_.quality_floor > 0 && is_too_poor(v, origin)) {
+      state_.mesh.positions[v] = origin;
+      return;
     }
-  }
-  if (moved > options.tolerance * h) {
-    mark_dirty(state, v);
+    if (!(moved > options_.tolerance * h)) return;
+    mark_dirty(state_, v);
     for (const HexStar& corner : star)
-      for (VertId u : corner) mark_dirty(state, u);
+      for (VertId u : corner) mark_dirty(state_, u);
   }
-  return moved;
-}
+
+ private:
+  VertexGoal goal_of(VertId v) {
+    VertexGoal goal = make_goal(state_, v, options_.weight);
+    if (options_.hex_weight) {
+      weights_.clear();
+      for (const HexCorner& corner : state_.vert_to_hex[v])
+        weights_.push_back((*options_.hex_weight)[corner.hex]);
+      goal.hex_weights = weights_;
+    }
+    return goal;
+  }
+
+  // Below the floor and poorer than at the origin, or without a proof that was there.
+  bool is_too_poor(VertId v, const Vec3& origin) {
+    const IdSpan<VertId, const Vec3> positions(state_.mesh.positions);
+    const auto star = state_.stars[v];
+    const Vec3 here = positions[v];
+    const double after = min_scaled_jacobian_around(here, star, positions);
+    if (after < options_.quality_floor &&
+        after < min_scaled_jacobian_around(origin, star, positions))
+      return true;
+    if (after > kProvenQuality) return false;
+    const int unproven = count_unproven_around(state_, v);
+    if (unproven == 0) return false;
+    state_.mesh.positions[v] = origin;
+    const bool is_worse = unproven > count_unproven_around(state_, v);
+    state_.mesh.positions[v] = here;
+    return is_worse;
+  }
+
+  FitState& state_;
+  const SweepOptions& options_;
+  VertexNewton newton_;
+  std::vector<double> weights_;
+};
 
 constexpr std::size_t kVertsPerTask = 64;
 
@@ -68,11 +104,8 @@ std::size_t sweep(FitState& state, const SweepOptions& options) {
       if (state.is_dirty[v]) dirty.push_back(v);
     count += dirty.size();
     parallel_chunks(dirty.size(), kVertsPerTask, [&](std::size_t begin, std::size_t end) {
-      VertexNewton newton;
-      for (std::size_t i = begin; i < end; ++i) {
-        state.is_dirty[dirty[i]] = 0;
-        solve_vertex(state, dirty[i], options, newton);
-      }
+      Solver solver(state, options);
+      for (std::size_t i = begin; i < end; ++i) solver.solve(dirty[i]);
     });
   }
   return count;
@@ -98,12 +131,10 @@ void LocalSweep::run(FitState& state, const SweepOptions& options, bool only_dir
   for (std::size_t c = 0; c + 1 < offset_.size(); ++c) {
     const std::size_t first = offset_[c];
     parallel_chunks(offset_[c + 1] - first, kVertsPerTask, [&](std::size_t begin, std::size_t end) {
-      VertexNewton newton;
+      Solver solver(state, options);
       for (std::size_t i = begin; i < end; ++i) {
         const VertId v = verts_[first + i];
-        if (only_dirty && !state.is_dirty[v]) continue;
-        state.is_dirty[v] = 0;
-        solve_vertex(state, v, options, newton);
+        if (!only_dirty || state.is_dirty[v]) solver.solve(v);
       }
     });
   }

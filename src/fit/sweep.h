@@ -15,6 +15,8 @@ struct SweepOptions {
   /// When positive: a move that takes the least scaled Jacobian around the vertex below this, and
   /// below what it was, is undone.
   double quality_floor = 0;
+  /// Factors of the hexes' shape energies; empty = all one.
+  const IdVector<HexId, double>* hex_weight = nullptr;
   double untangle_share = 0;  ///< when positive: regularises determinants by this share of h^3
 };
 

@@ -98,9 +98,10 @@ HEXWRIGHT_LANE_INLINE Lanes power(Lanes a, int n) {
 
 // The four corners of one incident hex as functions of the displacement d of the vertex.
 struct alignas(32) HexLanes {
-  Lanes3 e, f, g;  // see the head of the file
-  Lanes3 normal;   // f x g, the gradient of D
-  Lanes det;       // D at d = 0
+  Lanes3 e, f, g;     // see the head of the file
+  Lanes3 normal;      // f x g, the gradient of D
+  Lanes det;          // D at d = 0
+  double weight = 1;  // of the hex's energy
 };
 
 HEXWRIGHT_LANE_INLINE Lanes own_lane() { return Lanes{1, 0, 0, 0}; }
@@ -222,7 +223,7 @@ HEXWRIGHT_LANE_INLINE void add_condition_term(const HexLanes& h, const MovingEdg
   const Lanes trace = m.ee + m.ff + m.gg;
   Lanes energy = trace * trace * trace * inv_det * inv_det * splat(1.0 / 27);
   if (shape.power != 1) energy = power(energy, shape.power);
-  energy = energy * splat(1 - shape.blend);
+  energy = energy * splat((1 - shape.blend) * h.weight);
   const Lanes3 half_trace_grad = m.e + k * (m.f + m.g);  // T' / 2
   const Lanes slope = inv_det * b.slope;
   const Lanes3 log_grad =
@@ -246,7 +247,7 @@ HEXWRIGHT_LANE_INLINE void add_jacobian_term(const HexLanes& h, const MovingEdge
   const Lanes inv_det = one / b.value;
   Lanes energy = m.ee * m.ff * m.gg * inv_det * inv_det;
   if (shape.power != 1) energy = power(energy, shape.power);
-  energy = energy * splat(shape.blend);
+  energy = energy * splat(shape.blend * h.weight);
   const Lanes ie = one / m.ee, jf = k / m.ff, jg = k / m.gg;  // zero for edges that stay
   const Lanes slope = inv_det * b.slope;
   const Lanes3 log_grad =
@@ -302,8 +303,9 @@ HEXWRIGHT_LANE_CLONES double shape_at(const HexLanes* lanes, std::size_t num_hex
     const Lanes trace = m.ee + m.ff + m.gg;
     const Lanes condition = trace * trace * trace * inv_det_sq * splat(1.0 / 27);
     const Lanes jacobian = m.ee * m.ff * m.gg * inv_det_sq;
-    total = total + splat(1 - shape.blend) * power(condition, shape.power);
-    if (shape.blend > 0) total = total + splat(shape.blend) * power(jacobian, shape.power);
+    total = total + splat((1 - shape.blend) * h.weight) * power(condition, shape.power);
+    if (shape.blend > 0)
+      total = total + splat(shape.blend * h.weight) * power(jacobian, shape.power);
   }
   return sum(total);
 }
@@ -390,6 +392,7 @@ VertexDerivatives VertexNewton::evaluate(VertId v, std::span<const HexStar> star
                                          IdSpan<VertId, const Vec3> positions) {
   HexLanes* lanes = scratch(lanes_, star.size());
   gather_all(positions[v], star, positions, lanes);
+  for (std::size_t i = 0; i < goal.hex_weights.size(); ++i) lanes[i].weight = goal.hex_weights[i];
   VertexDerivatives result;
   if (!sum_shape(lanes, star.size(), shape, result)) {
     result.energy = std::numeric_limits<double>::infinity();
@@ -426,17 +429,17 @@ double VertexNewton::solve(VertId v, std::span<const HexStar> star, const Vertex
   return 0;
 }
 
-double min_scaled_jacobian_around(const Vec3& position, std::span<const HexStar> star,
-                                  IdSpan<VertId, const Vec3> positions) {
-  double result = 1;
+HEXWRIGHT_LANE_CLONES double min_scaled_jacobian_around(const Vec3& position,
+                                                        std::span<const HexStar> star,
+                                                        IdSpan<VertId, const Vec3> positions) {
   const Lanes3 none = {splat(0.0), splat(0.0), splat(0.0)};
+  double result = 1;
   for (const HexStar& s : star) {
     const HexLanes h = gather(position, s, positions);
     const MovingEdges m = edges_at(h, none);
-    for (int k = 0; k < 4; ++k) {
-      const double product = m.ee[k] * m.ff[k] * m.gg[k];
-      result = std::min(result, product > 0 ? h.det[k] / std::sqrt(product) : -1.0);
-    }
+    const Lanes product = m.ee * m.ff * m.gg;
+    if (!(least(product) > 0)) return -1;  // an edge without length
+    result = std::min(result, least(h.det / square_root(product)));
   }
   return result;
 }

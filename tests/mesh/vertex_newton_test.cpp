@@ -142,6 +142,35 @@ TEST(VertexNewton, StepsNeverInvertAndNeverRaiseTheEnergy) {
   EXPECT_GT(moved, 300);
 }
 
+// Twice the weight is the same hex counted twice.
+TEST(VertexNewton, WeighsHexes) {
+  std::mt19937 rng(8);
+  VertexNewton newton;
+  for (const ShapeEnergy& shape : all_shapes()) {
+    const HexMesh mesh = jittered_block(rng, 0.15);
+    const VertexStars stars(mesh);
+    const IdSpan<VertId, const Vec3> at(mesh.positions);
+    const auto star = stars[centre()];
+    std::vector<HexStar> repeated(star.begin(), star.end());
+    repeated.insert(repeated.end(), {star[2], star[5], star[5]});
+    VertexGoal goal;
+    goal.max_step = 1;
+    const auto expected = newton.evaluate(centre(), repeated, goal, shape, at);
+    const std::vector<double> weights = {1, 1, 2, 1, 1, 3, 1, 1};
+    goal.hex_weights = weights;
+    const auto weighed = newton.evaluate(centre(), star, goal, shape, at);
+    EXPECT_NEAR(weighed.energy, expected.energy, 1e-12 * expected.energy);
+    EXPECT_LT(norm(weighed.gradient - expected.gradient), 1e-9 * (1 + norm(expected.gradient)));
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_NEAR(weighed.hessian[k], expected.hessian[k], 1e-9 * expected.hessian[0]);
+    HexMesh a = mesh, b = mesh;
+    newton.solve(centre(), star, goal, shape, IdSpan<VertId, Vec3>(a.positions));
+    goal.hex_weights = {};
+    newton.solve(centre(), repeated, goal, shape, IdSpan<VertId, Vec3>(b.positions));
+    EXPECT_LT(distance(a.positions[centre()], b.positions[centre()]), 1e-9);
+  }
+}
+
 TEST(VertexNewton, RecoversTheCentreOfARegularBlock) {
   HexMesh mesh = test::box_hex_mesh(2, 2, 2);
   mesh.positions[centre()] += {0.4, -0.3, 0.2};

@@ -41,6 +41,8 @@ struct VertexGoal {
   double weight = 0;
   Vec3 target, direction;
   Vec3 axis;
+  /// Factors of the incident hexes' shape energies, in the star's order; empty = all one.
+  std::span<const double> hex_weights;
   double max_step = 0;  ///< longest displacement of one solve; shorter than 1e-6 of it is no move
 };
 
