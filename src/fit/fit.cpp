@@ -144,7 +144,7 @@ class Fitter {
       std::nth_element(sizes.begin(), decile, sizes.end());
       features.min_length = 4 * *decile;
     }
-    features_ = extract_features(surface_.surface(), features);
+    features_ = extract_features(surface_, features);
   }
 
   // Curves that turn out to be met badly are given up and the mapping done anew without them; the

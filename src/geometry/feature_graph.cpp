@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hexwright/base/error.h"
+#include "hexwright/geometry/exposure.h"
 
 #include "geometry/surface_edges.h"
 #include "geometry/triangle_math.h"
@@ -44,27 +45,40 @@ std::vector<std::uint64_t> user_keys(const TriMesh& surface, const FeatureOption
   return keys;
 }
 
-std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle) {
+/// Whether some part of the edge, at a few points, lies on the boundary of the solid.
+bool is_exposed(const SurfaceTree& tree, const SurfaceEdges& edges, std::size_t e) {
+  const TriMesh& surface = tree.surface();
+  const Vec3 a = surface.positions[edges.lo(e)], b = surface.positions[edges.hi(e)];
+  for (double along : {0.5, 0.1, 0.9, 0.3, 0.7})
+    for (const auto& side : edges.sides_of(e))
+      if (bounds_solid(tree, side.tri, a + (b - a) * along)) return true;
+  return false;
+}
+
+/// With a tree only the exposed ones.
+std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
+                                       const SurfaceTree* tree) {
   std::vector<Vec3> normals(surface.num_tris());
   for (TriId t : surface.tris.ids()) normals[t.index()] = unit_normal(surface.corners(t));
   const SurfaceEdges edges = compute_surface_edges(surface);
   const double min_cosine = std::cos(angle);
   std::vector<std::uint64_t> keys;
   for (std::size_t e = 0; e < edges.size(); ++e)
-    if (is_crease(edges.sides_of(e), normals, min_cosine)) keys.push_back(edges.keys[e]);
+    if (is_crease(edges.sides_of(e), normals, min_cosine) && (!tree || is_exposed(*tree, edges, e)))
+      keys.push_back(edges.keys[e]);
   return keys;
 }
 
 /// The graph of crease edges, from which pieces are removed.
 class CreaseGraph {
  public:
-  CreaseGraph(const TriMesh& surface, const FeatureOptions& options)
+  CreaseGraph(const TriMesh& surface, const FeatureOptions& options, const SurfaceTree* tree)
       : surface_(surface),
         min_turn_cosine_(std::cos(options.turn_angle)),
         min_length_(options.min_length),
         user_keys_(user_keys(surface, options)),
         neighbors_(surface.num_verts()) {
-    const auto creases = crease_keys(surface, options.crease_angle);
+    const auto creases = crease_keys(surface, options.crease_angle, tree);
     std::set_union(creases.begin(), creases.end(), user_keys_.begin(), user_keys_.end(),
                    std::back_inserter(keys_));
     for (std::uint64_t key : keys_) {
@@ -185,16 +199,9 @@ class CreaseGraph {
   std::vector<char> is_used_;  // per key, while chaining
 };
 
-}  // namespace
-
-double FeatureGraph::total_length() const {
-  double sum = 0;
-  for (const FeatureCurve& c : curves) sum += c.length();
-  return sum;
-}
-
-FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {
-  CreaseGraph graph(surface, options);
+FeatureGraph extract(const TriMesh& surface, const FeatureOptions& options,
+                     const SurfaceTree* tree) {
+  CreaseGraph graph(surface, options, tree);
   auto curves = graph.chain();
   for (int round = 0; round < kPruneRounds && graph.prune(curves); ++round) curves = graph.chain();
   FeatureGraph features;
@@ -206,6 +213,22 @@ FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& opti
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return features;
+}
+
+}  // namespace
+
+double FeatureGraph::total_length() const {
+  double sum = 0;
+  for (const FeatureCurve& c : curves) sum += c.length();
+  return sum;
+}
+
+FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {
+  return extract(surface, options, nullptr);
+}
+
+FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options) {
+  return extract(surface.surface(), options, &surface);
 }
 
 IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,

@@ -1,4 +1,5 @@
-// Check, weld, clean, orient, judge: the passes in order, with a sentence for what each found.
+// Check, weld, clean, orient, close, judge: the passes in order, with a sentence for what each
+// found.
 #include "hexwright/geometry/prepare_surface.h"
 
 #include <algorithm>
@@ -75,20 +76,26 @@ void check_not_flat(const TriMesh& mesh) {
   refuse("the surface is flat and encloses no volume; give it thickness");
 }
 
+/// Counts the open edges and refuses triangles that are no surface at all.
+void judge_openness(const TriMesh& mesh, SurfaceDiagnosis& diagnosis) {
+  const SurfaceEdges edges = compute_surface_edges(mesh);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    diagnosis.num_boundary_edges += edges.sides_of(e).size() == 1;
+  if (2 * diagnosis.num_boundary_edges > edges.size())
+    refuse("the triangles do not join to a surface: " +
+           std::to_string(diagnosis.num_boundary_edges) + " of " + std::to_string(edges.size()) +
+           " edges belong to one triangle only; export the model as a connected (watertight) mesh");
+}
+
 void judge_edges(const TriMesh& mesh, SurfaceDiagnosis& diagnosis) {
   const SurfaceEdges edges = compute_surface_edges(mesh);
   diagnosis.is_closed = true;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto sides = edges.sides_of(e);
-    diagnosis.num_boundary_edges += sides.size() == 1;
     diagnosis.num_nonmanifold_edges += sides.size() > 2;
     diagnosis.is_closed =
         diagnosis.is_closed && sides.size() == 2 && sides[0].is_forward != sides[1].is_forward;
   }
-  if (2 * diagnosis.num_boundary_edges > edges.size())
-    refuse("the triangles do not join to a surface: " +
-           std::to_string(diagnosis.num_boundary_edges) + " of " + std::to_string(edges.size()) +
-           " edges belong to one triangle only; export the model as a connected (watertight) mesh");
 }
 
 /// Looks for points well inside: along the inward normals and on a lattice over the box.
@@ -115,17 +122,27 @@ bool encloses_something(const TriMesh& mesh) {
   return false;
 }
 
-void check_volume(const TriMesh& mesh, bool is_closed) {
+[[noreturn]] void refuse_no_volume(const std::string& why) {
+  refuse("the surface encloses no volume (" + why + "); give it thickness or close it");
+}
+
+void check_volume(const TriMesh& mesh) {
   double area2 = 0;
   for (TriId t : mesh.tris.ids()) {
     const auto c = mesh.corners(t);
     area2 += norm(cross(c[1] - c[0], c[2] - c[0]));
   }
-  const double least = kLeastVolume * area2 * bounding_box(mesh).diagonal();
-  if (is_closed ? signed_volume6(mesh) > least : encloses_something(mesh)) return;
-  refuse(std::string("the surface encloses no volume (") +
-         (is_closed ? "its two sides coincide" : "it is too open to have an inside") +
-         "); give it thickness or close it");
+  if (signed_volume6(mesh) <= kLeastVolume * area2 * bounding_box(mesh).diagonal())
+    refuse_no_volume("its two sides coincide");
+}
+
+/// Closes the holes of a surface that is nearly closed. What is far from closed has no inside that
+/// patches could complete: two triangles would become a solid.
+void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
+  judge_openness(work.mesh, diagnosis);
+  if (diagnosis.num_boundary_edges == 0) return;
+  if (!encloses_something(work.mesh)) refuse_no_volume("it is too open to have an inside");
+  diagnosis.num_filled_holes = fill_holes(work);
 }
 
 /// The result in the input's coordinates, without the vertices that nothing uses.
@@ -170,9 +187,14 @@ std::vector<std::string> describe(const SurfaceDiagnosis& d, const Orientation& 
     said.push_back(counted(d.num_hidden_parts, "part", "parts") +
                    " with the solid on both sides ignored; turn a closed one inside out if it is "
                    "a cavity");
-  if (d.num_boundary_edges > 0)
-    said.push_back("the surface is open along " + counted(d.num_boundary_edges, "edge", "edges") +
-                   "; inside is decided by the winding number");
+  if (d.num_boundary_edges > 0) {
+    const std::string open =
+        "the surface is open along " + counted(d.num_boundary_edges, "edge", "edges");
+    said.push_back(d.num_filled_holes > 0
+                       ? open + "; " + counted(d.num_filled_holes, "hole was", "holes were") +
+                             " closed with patches over their borders; check that they are meant"
+                       : open + "; inside is decided by the winding number");
+  }
   if (d.num_nonmanifold_edges > 0)
     said.push_back(counted(d.num_nonmanifold_edges, "edge has", "edges have") +
                    " more than two triangles; inside is decided by the winding number");
@@ -201,9 +223,10 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
   const Orientation orientation = orient_surface(work.mesh, context);
   diagnosis.num_flipped_tris = orientation.num_repaired;
   diagnosis.is_flipped_whole = orientation.num_turned_parts == orientation.num_parts;
+  close_holes(work, diagnosis);
   diagnosis.num_hidden_parts = drop_hidden_parts(work);
   judge_edges(work.mesh, diagnosis);
-  check_volume(work.mesh, diagnosis.is_closed);
+  if (diagnosis.is_closed) check_volume(work.mesh);
 
   diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);

@@ -12,7 +12,7 @@ namespace hexwright {
 /// The surface under preparation, in the unit frame. Vertices keep their numbers until the end.
 struct WorkingSurface {
   TriMesh mesh;
-  IdVector<TriId, TriId> source;  ///< per triangle: its id in the input
+  IdVector<TriId, TriId> source;  ///< per triangle: its id in the input; invalid: made here
 
   /// Keeps the triangles for which the flag is set.
   void keep(const std::vector<char>& is_kept);
@@ -34,6 +34,11 @@ std::size_t remove_degenerate_tris(WorkingSurface& surface, std::size_t& num_kep
 /// Reduces triangles on the same three vertices to one; equal numbers of opposite orientation
 /// cancel, unless that opens the surface. Returns how many are dropped.
 std::size_t remove_duplicate_tris(WorkingSurface& surface);
+
+/// Closes every loop of open edges with a patch over its vertices; a fin's outline is none where it
+/// is attached. The surface must be oriented. Triangles added have no source. Returns the number of
+/// patches.
+std::size_t fill_holes(WorkingSurface& surface);
 
 /// Removes parts with the solid on both of their sides. They bound nothing, but sizing, features
 /// and distances would follow them. The region with winding number above one half stays the same.

@@ -186,13 +186,13 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
 
   // What the surface is like.
   const MeshOptions options = resolve_options(given, bounding_box(prepared.mesh).diagonal());
+  const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
+                                     [&] { return SurfaceTree(std::move(prepared.mesh)); });
   const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
-    return extract_features(prepared.mesh, options.judge.features);
+    return extract_features(tree, options.judge.features);
   });
   result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());
   result.stages.back().counts["corners"] = static_cast<double>(features.corners.size());
-  const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
-                                     [&] { return SurfaceTree(std::move(prepared.mesh)); });
   const ExpectedTopology expected = find_expected_topology(tree);
 
   // Grid, hexes, fit; again where the fit missed.

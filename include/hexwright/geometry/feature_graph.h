@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 namespace hexwright {
@@ -39,6 +40,9 @@ struct FeatureGraph {
 /// Creases by dihedral angle, boundary and non-manifold edges, and the user's; chained, pruned,
 /// with corners.
 FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options);
+/// The same without creases that lie off the solid's boundary (see exposure.h), as inside the union
+/// of overlapping parts: no mesh edge can follow them. The user's edges all stay.
+FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options);
 
 /// Patch of each triangle: components connected across edges that are on none of the curves with
 /// `is_barrier` set. An empty span means all curves separate.

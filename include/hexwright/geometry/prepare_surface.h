@@ -15,23 +15,25 @@ struct SurfaceDiagnosis {
   std::size_t num_welded_verts = 0;     ///< vertices merged into an equal or nearly equal one
   std::size_t num_degenerate_tris = 0;  ///< dropped: zero area or repeated vertex
   std::size_t num_duplicate_tris = 0;   ///< dropped: same three vertices as an earlier one
-  std::size_t num_boundary_edges = 0;   ///< after the clean-up: edges with one triangle
+  std::size_t num_boundary_edges = 0;   ///< edges with one triangle, before holes were closed
+  std::size_t num_filled_holes = 0;     ///< loops of such edges that a patch closes now
   std::size_t num_nonmanifold_edges =
       0;                             ///< after the clean-up: edges with three or more triangles
   std::size_t num_flipped_tris = 0;  ///< re-oriented to agree with their component
   std::size_t num_hidden_parts = 0;  ///< dropped: walls and shells inside the solid
   bool is_flipped_whole = false;     ///< the surface pointed inwards and was turned as a whole
-  bool is_closed = false;  ///< every edge has exactly two, consistently oriented triangles
+  bool is_closed = false;  ///< now every edge has exactly two, consistently oriented triangles
   std::vector<std::string> warnings;  ///< one sentence each, for the user
 };
 
 struct PreparedSurface {
   TriMesh mesh;
-  IdVector<TriId, TriId> source_tri;  ///< per triangle: its id in the input
+  IdVector<TriId, TriId>
+      source_tri;  ///< per triangle: its id in the input; invalid where it closes a hole
   SurfaceDiagnosis diagnosis;
 };
 
-/// Welds, cleans and orients. Tolerances are relative to the box's diagonal.
+/// Welds, cleans, orients, and closes holes. Tolerances are relative to the box's diagonal.
 /// Throws Error{BadGeometry} when nothing remains to mesh: no triangles, coordinates not finite
 /// (names the vertex), extent so large or small that doubles overflow or vanish, all triangles
 /// degenerate, or no enclosed volume (a flat sheet). The message says what to do.

@@ -1,0 +1,31 @@
+// Winding numbers on both sides of a triangle.
+#include "hexwright/geometry/exposure.h"
+
+#include <cmath>
+
+namespace hexwright {
+namespace {
+
+/// Steps off the surface: of the triangle's size, and at most of the surface's diagonal. Small
+/// against every wall worth meshing; large against the rounding of positions.
+constexpr double kStepOfTriangle = 1e-3;
+constexpr double kStepOfDiagonal = 1e-5;
+/// How far the probe moves towards the centroid. The way from an edge to the probe stays ten times
+/// the step off the surface, which keeps the probe inside wedges down to about 6 degrees.
+constexpr double kTowardsCentroid = 0.02;
+
+}  // namespace
+
+bool bounds_solid(const SurfaceTree& surface, TriId t, const Vec3& p) {
+  const auto c = surface.surface().corners(t);
+  const double size = std::sqrt(norm(cross(c[1] - c[0], c[2] - c[0])));
+  if (!(size > 0)) return false;
+  const Vec3 centroid = c[0] * (1.0 / 3) + c[1] * (1.0 / 3) + c[2] * (1.0 / 3);
+  const Vec3 probe = p + (centroid - p) * kTowardsCentroid;
+  const double length =
+      std::min(kStepOfTriangle * size, kStepOfDiagonal * surface.box().diagonal());
+  const Vec3 step = surface.normal(t) * length;
+  return surface.is_inside(probe - step) != surface.is_inside(probe + step);
+}
+
+}  // namespace hexwright
