@@ -21,8 +21,7 @@ using Loop = std::vector<VertId>;
 
 /// Open edges, each in the direction in which a patch runs through it (against its triangle), by
 /// start vertex.
-std::vector<std::array<VertId, 2>> find_open_edges(const TriMesh& mesh) {
-  const SurfaceEdges edges = compute_surface_edges(mesh);
+std::vector<std::array<VertId, 2>> find_open_edges(const SurfaceEdges& edges) {
   std::vector<std::array<VertId, 2>> open;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto sides = edges.sides_of(e);
@@ -36,11 +35,11 @@ std::vector<std::array<VertId, 2>> find_open_edges(const TriMesh& mesh) {
 
 /// Walks along open edges and cuts off a loop whenever a vertex comes again, so that holes that
 /// meet in a vertex come apart. Chains that lead nowhere, as around a fin, give no loop.
-std::vector<Loop> trace_loops(const TriMesh& mesh) {
-  const auto open = find_open_edges(mesh);
+std::vector<Loop> trace_loops(const SurfaceEdges& edges, std::size_t num_verts) {
+  const auto open = find_open_edges(edges);
   std::vector<char> is_used(open.size(), 0);
   std::vector<Loop> loops;
-  IdVector<VertId, int> place(mesh.num_verts(), -1);  // in the walk, -1 = not on it
+  IdVector<VertId, int> place(num_verts, -1);  // in the walk, -1 = not on it
   for (std::size_t first = 0; first < open.size(); ++first) {
     if (is_used[first]) continue;
     Loop walk{open[first][0]};
@@ -75,8 +74,13 @@ double cost(const TriMesh& mesh, VertId a, VertId b, VertId c) {
   return norm(cross(ab, ac)) + kLength * (norm_sq(ab) + norm_sq(ac) + norm_sq(ac - ab));
 }
 
+/// Added for a diagonal that is an edge of the surface already, which would get four triangles. In
+/// the unit frame more than any patch.
+constexpr double kTaken = 1e6;
+
 /// The cheapest triangulation of one loop, appended to `tris`.
-void fill_at_once(const TriMesh& mesh, const Loop& loop, std::vector<std::array<VertId, 3>>& tris) {
+void fill_at_once(const TriMesh& mesh, const SurfaceEdges& edges, const Loop& loop,
+                  std::vector<std::array<VertId, 3>>& tris) {
   const std::size_t n = loop.size();
   if (n < 3) return;
   // least[i * n + j]: of the polygon i, i+1 .. j; apex: the corner of the triangle on its edge ij.
@@ -93,7 +97,8 @@ void fill_at_once(const TriMesh& mesh, const Loop& loop, std::vector<std::array<
         best = total;
         apex[i * n + j] = k;
       }
-      least[i * n + j] = best;
+      const bool is_taken = span + 1 < n && edges.find(loop[i], loop[j]) >= 0;
+      least[i * n + j] = best + (is_taken ? kTaken : 0);
     }
   std::vector<std::array<std::size_t, 2>> todo{{0, n - 1}};
   while (!todo.empty()) {
@@ -108,8 +113,9 @@ void fill_at_once(const TriMesh& mesh, const Loop& loop, std::vector<std::array<
 }
 
 /// Long loops: pieces of the border are closed along their chords, then the loop of the chords.
-void fill_loop(const TriMesh& mesh, const Loop& loop, std::vector<std::array<VertId, 3>>& tris) {
-  if (loop.size() <= kMaxAtOnce) return fill_at_once(mesh, loop, tris);
+void fill_loop(const TriMesh& mesh, const SurfaceEdges& edges, const Loop& loop,
+               std::vector<std::array<VertId, 3>>& tris) {
+  if (loop.size() <= kMaxAtOnce) return fill_at_once(mesh, edges, loop, tris);
   const std::size_t num_pieces = std::max<std::size_t>(3, loop.size() / (kMaxAtOnce / 2));
   Loop chords;
   for (std::size_t p = 0; p < num_pieces; ++p) {
@@ -118,20 +124,21 @@ void fill_loop(const TriMesh& mesh, const Loop& loop, std::vector<std::array<Ver
     chords.push_back(loop[begin]);
     Loop piece(loop.begin() + static_cast<long>(begin), loop.begin() + static_cast<long>(end));
     piece.push_back(loop[end % loop.size()]);
-    fill_at_once(mesh, piece, tris);
+    fill_at_once(mesh, edges, piece, tris);
   }
-  fill_loop(mesh, chords, tris);
+  fill_loop(mesh, edges, chords, tris);
 }
 
 }  // namespace
 
 std::size_t fill_holes(WorkingSurface& surface) {
-  const std::vector<Loop> loops = trace_loops(surface.mesh);
+  const SurfaceEdges edges = compute_surface_edges(surface.mesh);
+  const std::vector<Loop> loops = trace_loops(edges, surface.mesh.num_verts());
   std::vector<std::array<VertId, 3>> tris;
   std::size_t num_filled = 0;
   for (const Loop& loop : loops) {
     if (loop.size() < 3) continue;
-    fill_loop(surface.mesh, loop, tris);
+    fill_loop(surface.mesh, edges, loop, tris);
     ++num_filled;
   }
   for (const auto& tri : tris) {

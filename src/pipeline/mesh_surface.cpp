@@ -20,6 +20,10 @@ namespace {
 /// Rounds without an improvement after which the loop ends: what still misses is out of its reach.
 constexpr int kPatience = 3;
 
+/// Open or overlapping surfaces leave misses that no depth of cells cures, where parts meet: the
+/// loop gets this share of its budget.
+constexpr std::size_t kDefectiveShare = 4;
+
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
   options.judge.features = features_for_sizing(options.fit.features, diagonal);
@@ -72,6 +76,8 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
 /// affordable. Returns the best round.
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
   const MeshOptions& options = input.options;
+  const std::size_t budget =
+      input.expected.is_known ? options.max_loop_hexes : options.max_loop_hexes / kDefectiveShare;
   Round current = run_round(input, std::move(completed));
   std::size_t total_hexes = current.record.num_background;
   Round best = current;
@@ -85,11 +91,11 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
     CompleteResult next =
         complete(split_cells(current.grid, marks), options.complete, input.context);
     const std::size_t num_cells = next.grid.num_cells();
-    if (num_cells > options.max_hexes || total_hexes + num_cells > options.max_loop_hexes) {
+    if (num_cells > options.max_hexes || total_hexes + num_cells > budget) {
       input.context.warn(fmt::format(
           "refinement stops after round {}: the next grid has {} cells, beyond the budget of {} "
           "per round or {} over all rounds",
-          result.num_rounds, num_cells, options.max_hexes, options.max_loop_hexes));
+          result.num_rounds, num_cells, options.max_hexes, budget));
       break;
     }
     current = run_round(input, std::move(next));

@@ -12,6 +12,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/function_ref.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/geometry/exposure.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "quality/triangle_samples.h"
@@ -26,8 +27,6 @@ constexpr double kSlack = 1 + 1e-9;
 
 /// Samples nearer than this share of the diagonal always count: only far ones are worth a test.
 constexpr double kTrustedDistance = 0.001;
-/// How far to both sides of the surface the solid is probed, as a share of the diagonal.
-constexpr double kProbeStep = 1e-6;
 
 struct Target {
   const SurfaceTree& tree;
@@ -37,30 +36,14 @@ struct Target {
   double trusted_distance = 0;
 };
 
-/// Whether the solid's boundary runs between the points at `step` on both sides of p along a
-/// normal.
-bool is_between(const SurfaceTree& solid, const Vec3& p, const Vec3& normal, double step) {
-  return solid.is_inside(p - normal * step) != solid.is_inside(p + normal * step);
-}
-
-/// Whether the surface bounds the solid at its point p. Probed a little inside the triangle: at a
-/// sharp edge or apex the points on both sides of p itself may lie outside.
-bool is_solid_boundary(const SurfaceTree& surface, const Vec3& p, double diagonal) {
-  const auto at = surface.closest(p);
-  if (!at) return false;
-  const auto c = surface.surface().corners(at->tri);
-  const Vec3 inward = (c[0] + c[1] + c[2]) / 3 - p;
-  const double length = norm(inward);
-  const double shift = std::min(0.5, length > 0 ? kTrustedDistance * diagonal / length : 0);
-  return is_between(surface, p + inward * shift, surface.normal(at->tri), kProbeStep * diagonal);
-}
-
 /// Whether the winding number passes 1/2 nearer to the boundary's point p than any surface, at d:
 /// there it closes a hole.
 bool is_closing_hole(const SurfaceTree& boundary, const SurfaceTree& solid, const Vec3& p,
                      double d) {
   const auto at = boundary.closest(p);
-  return at && is_between(solid, p, boundary.normal(at->tri), 0.9 * d);
+  if (!at) return false;
+  const Vec3 step = boundary.normal(at->tri) * (0.9 * d);
+  return solid.is_inside(p - step) != solid.is_inside(p + step);
 }
 
 // What one chunk of samples finds; chunks are combined from left to right.
@@ -158,7 +141,8 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double trusted =
       options.solid_only ? kTrustedDistance * diagonal : std::numeric_limits<double>::infinity();
   const auto is_off_solid = [&](const Vec3& p, double) {
-    return !is_solid_boundary(surface, p, diagonal);
+    const auto at = surface.closest(p);
+    return !at || !bounds_solid(surface, at->tri, p);
   };
   const auto closes_hole = [&](const Vec3& p, double d) {
     return is_closing_hole(boundary, surface, p, d);

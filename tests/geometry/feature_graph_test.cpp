@@ -54,6 +54,30 @@ TEST(Features, CubeHasTwelveCurvesEightCornersSixPatches) {
   for (TriId t : cube.tris.ids()) EXPECT_EQ(patches[t].value(), t.value() / 2);
 }
 
+// Of two cubes that overlap, the second lies with one corner deep in the first: the three edges
+// there are buried whole, and with them that corner.
+TEST(Features, CreasesInsideTheSolidAreLeftOutWithATree) {
+  TriMesh two = test::unit_cube_surface();
+  const TriMesh cube = test::unit_cube_surface();
+  for (const Vec3& p : cube.positions) two.positions.push_back(p * 0.4 + Vec3{0.9, 0.3, 0.3});
+  for (const auto& t : cube.tris)
+    two.tris.push_back(
+        {VertId(t[0].value() + 8), VertId(t[1].value() + 8), VertId(t[2].value() + 8)});
+  EXPECT_EQ(extract_features(two, {}).curves.size(), 24u);
+  const FeatureGraph exposed = extract_features(SurfaceTree(two), {});
+  EXPECT_EQ(exposed.curves.size(), 20u);   // without the square of edges on the buried side
+  EXPECT_EQ(exposed.corners.size(), 16u);  // where the other edges enter the first cube
+  EXPECT_NEAR(exposed.total_length(), 12 + 8 * 0.4, 1e-12);
+}
+
+TEST(Features, AClosedSurfaceHasTheSameFeaturesWithATree) {
+  const TriMesh shape = prism(24, 1e-3);  // thin: the probe must not pass through
+  const auto plain = extract_features(shape, {}),
+             exposed = extract_features(SurfaceTree(shape), {});
+  EXPECT_EQ(exposed.corners, plain.corners);
+  EXPECT_EQ(exposed.total_length(), plain.total_length());
+}
+
 TEST(Features, FlippedTrianglesDoNotChangeCreases) {
   TriMesh cube = test::unit_cube_surface();
   for (TriId t : cube.tris.ids())

@@ -209,9 +209,70 @@ TEST(PrepareSurface, OpenSurfacesWithAnInsideAreAcceptedAndTurnedOutwards) {
   for (const TriMesh& mesh : {open, reversed(open)}) {
     const auto p = prepare_surface(mesh, {});
     EXPECT_EQ(p.diagnosis.num_boundary_edges, 4u);
+    EXPECT_EQ(p.diagnosis.num_filled_holes, 1u);
     EXPECT_FALSE(p.diagnosis.warnings.empty());
-    EXPECT_GT(test::brute_winding(p.mesh, {0.5, 0.5, 0.5}), 0.5);
+    EXPECT_TRUE(p.diagnosis.is_closed);
+    EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+    EXPECT_EQ(p.source_tri[TriId(9)], TriId(9));
+    EXPECT_FALSE(p.source_tri[TriId(10)].is_valid());
   }
+}
+
+/// A tube along z over a regular polygon, without its two ends.
+TriMesh open_tube(int n) {
+  TriMesh tube;
+  for (int z = 0; z < 2; ++z)
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      tube.positions.push_back({std::cos(a), std::sin(a), 3.0 * z});
+    }
+  for (int i = 0; i < n; ++i) {
+    const VertId a(i), b((i + 1) % n), c(n + i), d(n + (i + 1) % n);
+    tube.tris.push_back({a, b, d});
+    tube.tris.push_back({a, d, c});
+  }
+  return tube;
+}
+
+// Borders beyond the length that is triangulated at once, too.
+TEST(PrepareSurface, HolesOfAnyLengthAreClosedFlat) {
+  for (int n : {3, 6, 50, 200, 201, 777}) {
+    const auto p = prepare_surface(open_tube(n), {});
+    EXPECT_TRUE(p.diagnosis.is_closed) << n;
+    EXPECT_EQ(p.diagnosis.num_filled_holes, 2u);
+    EXPECT_EQ(p.mesh.num_tris(), std::size_t(2 * n + 2 * (n - 2)));
+    const double area = 0.5 * n * std::sin(2 * std::numbers::pi / n);
+    EXPECT_NEAR(volume(p.mesh), 3 * area, 1e-9) << n;
+    EXPECT_EQ(compute_topology(p.mesh).euler_characteristic, 2);
+  }
+}
+
+// Removes random triangles of a closed sphere: every set of holes closes again, each loop with two
+// triangles less than its edges.
+TEST(PrepareSurface, RandomHolesAreClosedAgain) {
+  const TriMesh sphere = prepare_surface(test::unit_sphere_surface(3), {}).mesh;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 random(seed);
+    TriMesh open;
+    open.positions = sphere.positions;
+    for (const auto& t : sphere.tris)
+      if (random() % 10 != 0) open.tris.push_back(t);
+    const auto p = prepare_surface(open, {});
+    EXPECT_TRUE(p.diagnosis.is_closed) << "seed " << seed;
+    EXPECT_EQ(p.mesh.num_tris(),
+              open.num_tris() + p.diagnosis.num_boundary_edges - 2 * p.diagnosis.num_filled_holes);
+    EXPECT_NEAR(volume(p.mesh), volume(sphere), 0.02) << "seed " << seed;
+  }
+}
+
+TEST(PrepareSurface, AFinThatHangsOnTheSurfaceIsNoHole) {
+  TriMesh cube = test::unit_cube_surface();
+  const VertId tip = cube.positions.push_back({2, 0, 0.5});  // outside, on the edge 1-5
+  cube.tris.push_back({VertId(1), VertId(5), tip});
+  const auto p = prepare_surface(cube, {});
+  EXPECT_EQ(p.diagnosis.num_boundary_edges, 2u);
+  EXPECT_EQ(p.diagnosis.num_filled_holes, 0u);
+  EXPECT_NEAR(volume(p.mesh), 1, 0.5);
 }
 
 TEST(PrepareSurface, WorksAtAnyScaleAndPosition) {

@@ -31,7 +31,8 @@ struct MeshOptions {
   int loop_extra_levels = 3;          ///< the loop may go so much deeper than sizing.max_level
   std::size_t max_hexes = 2'000'000;  ///< budget of one background mesh
   /// Budget of the loop: no further round once the background meshes of all rounds together would
-  /// exceed it. Counts, not seconds, so that results do not depend on the machine.
+  /// exceed it; a quarter of it for open and overlapping surfaces. Counts, not seconds, so that
+  /// results do not depend on the machine.
   std::size_t max_loop_hexes = 1'000'000;
 };
 

@@ -1,0 +1,90 @@
+#include "hexwright/geometry/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/random_soup.h"
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+void append_cube(TriMesh& to, double size, const Vec3& low, bool reversed) {
+  const TriMesh cube = test::unit_cube_surface();
+  const auto base = static_cast<int>(to.num_verts());
+  for (const Vec3& p : cube.positions) to.positions.push_back(p * size + low);
+  for (auto t : cube.tris) {
+    if (reversed) std::swap(t[1], t[2]);
+    to.tris.push_back(
+        {VertId(base + t[0].value()), VertId(base + t[1].value()), VertId(base + t[2].value())});
+  }
+}
+
+Vec3 random_in_triangle(std::mt19937_64& random, const std::array<Vec3, 3>& c) {
+  const Vec3 r = test::random_point(random) * 0.5 + Vec3{0.5, 0.5, 0.5};
+  const double a = 1 - std::sqrt(r.x), b = std::sqrt(r.x) * r.y;
+  return c[0] * (1 - a - b) + c[1] * a + c[2] * b;
+}
+
+bool is_in_box(const Vec3& p, const Vec3& low, double size) {
+  return Box3{low, low + Vec3{size, size, size}}.contains(p);
+}
+
+TEST(Exposure, EveryPointOfAClosedSurfaceBoundsIt) {
+  std::mt19937_64 random(5);
+  for (const TriMesh& shape : {test::unit_cube_surface(), test::unit_sphere_surface(2)}) {
+    const SurfaceTree tree(shape);
+    for (TriId t : shape.tris.ids()) {
+      for (const Vec3& corner : shape.corners(t)) EXPECT_TRUE(bounds_solid(tree, t, corner));
+      EXPECT_TRUE(bounds_solid(tree, t, random_in_triangle(random, shape.corners(t))));
+    }
+  }
+}
+
+// Two overlapping cubes: a point of one bounds the union exactly when the other does not hold it.
+TEST(Exposure, AgreesWithTheUnionOfOverlappingCubes) {
+  const Vec3 low = {0.4, 0.3, 0.2};
+  TriMesh two;
+  append_cube(two, 1, {}, false);
+  append_cube(two, 1, low, false);
+  const SurfaceTree tree(two);
+  std::mt19937_64 random(6);
+  int num_buried = 0;
+  for (TriId t : two.tris.ids())
+    for (int i = 0; i < 100; ++i) {
+      // Away from where the surfaces cross, since the probe moves by a share of the triangle.
+      const Vec3 p = random_in_triangle(random, two.corners(t));
+      const Vec3 other = t.value() < 12 ? low : Vec3{};
+      const bool is_inside = is_in_box(p, other + Vec3{0.03, 0.03, 0.03}, 0.94);
+      if (is_inside != is_in_box(p, other - Vec3{0.03, 0.03, 0.03}, 1.06)) continue;
+      EXPECT_EQ(bounds_solid(tree, t, p), !is_inside) << p.x << " " << p.y << " " << p.z;
+      num_buried += is_inside;
+    }
+  EXPECT_GT(num_buried, 200);
+}
+
+TEST(Exposure, CavitiesBoundAndShellsOfEqualOrientationDoNot) {
+  for (bool reversed : {true, false}) {
+    TriMesh nested;
+    append_cube(nested, 1, {}, false);
+    append_cube(nested, 0.5, {0.2, 0.2, 0.2}, reversed);
+    const SurfaceTree tree(nested);
+    for (TriId t : nested.tris.ids()) {
+      const auto c = nested.corners(t);
+      EXPECT_EQ(bounds_solid(tree, t, (c[0] + c[1] + c[2]) / 3), reversed || t.value() < 12);
+    }
+  }
+}
+
+TEST(Exposure, ADoubledSheetAndATriangleWithoutAreaBoundNothing) {
+  TriMesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+  sheet.tris = {{VertId(0), VertId(1), VertId(2)},
+                {VertId(0), VertId(2), VertId(1)},
+                {VertId(0), VertId(1), VertId(3)}};
+  const SurfaceTree tree(sheet);
+  EXPECT_FALSE(bounds_solid(tree, TriId(0), {0.2, 0.2, 0}));
+  EXPECT_FALSE(bounds_solid(tree, TriId(2), {0.5, 0, 0}));
+}
+
+}  // namespace
+}  // namespace hexwright
