@@ -4,16 +4,43 @@
 
 namespace hexwright::dual {
 
+namespace {
+
+// Determinant of the edges at a corner, and the product of their squared lengths.
+struct Corner {
+  double det, lengths_sq;
+};
+
+Corner corner_of(const std::array<Vec3, 8>& p, int lv) {
+  const auto& n = kHexCornerNeighbors[lv];
+  const Vec3 e0 = p[n[0]] - p[lv], e1 = p[n[1]] - p[lv], e2 = p[n[2]] - p[lv];
+  return {det(e0, e1, e2), norm_sq(e0) * norm_sq(e1) * norm_sq(e2)};
+}
+
+}  // namespace
+
 double scaled_jacobian(const HexMesh& mesh, HexId h) {
   const auto p = mesh.corners(h);
   double least = 1;
   for (int lv = 0; lv < 8; ++lv) {
-    const auto& n = kHexCornerNeighbors[lv];
-    const Vec3 e0 = p[n[0]] - p[lv], e1 = p[n[1]] - p[lv], e2 = p[n[2]] - p[lv];
-    const double lengths = std::sqrt(norm_sq(e0) * norm_sq(e1) * norm_sq(e2));
-    least = std::min(least, lengths > 0 ? det(e0, e1, e2) / lengths : -1.0);
+    const Corner c = corner_of(p, lv);
+    const double lengths = std::sqrt(c.lengths_sq);
+    least = std::min(least, lengths > 0 ? c.det / lengths : -1.0);
   }
   return least;
+}
+
+double soft_scaled_jacobian(const HexMesh& mesh, HexId h) {
+  const auto p = mesh.corners(h);
+  double mean = 0;  // of s^-8
+  for (int lv = 0; lv < 8; ++lv) {
+    const Corner c = corner_of(p, lv);
+    if (c.det <= 0) return 0;
+    const double inverse_sq = c.lengths_sq / (c.det * c.det);
+    const double inverse_4th = inverse_sq * inverse_sq;
+    mean += 0.125 * inverse_4th * inverse_4th;
+  }
+  return 1 / std::sqrt(std::sqrt(std::sqrt(mean)));
 }
 
 MeshQuality measure_quality(const HexMesh& mesh) {

@@ -14,6 +14,10 @@ struct MeshQuality {
 /// has no length.
 double scaled_jacobian(const HexMesh& mesh, HexId h);
 
+/// Smooth stand-in for it: the mean over the corners to the power -8, raised to -1/8; at least the
+/// scaled Jacobian and at most 1.3 times it. 0 when a corner is inverted.
+double soft_scaled_jacobian(const HexMesh& mesh, HexId h);
+
 MeshQuality measure_quality(const HexMesh& mesh);
 
 }  // namespace hexwright::dual
