@@ -73,6 +73,11 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->add_flag("--no-loop", cmd->no_loop,
                 "A single pass with a stricter a-priori sizing, instead of refining where the fit "
                 "missed");
+  sub->add_option("--transition-cost", cmd->options.even.transition_cost,
+                  "What a cell beside another level counts more than one that is not, when levels "
+                  "are evened out; 0 = never even out")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   sub->add_option("--rounds", cmd->options.max_rounds, "At most so many refinements")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();

@@ -30,6 +30,8 @@ MeshOptions resolve_options(MeshOptions options, double diagonal) {
   if (options.fit.carve.side != Side::Inside) options.judge.distance.quads = JudgedQuads::Labeled;
   const double threshold = options.refine_threshold * options.sizing.tolerance;
   options.judge.distance.hot_threshold = threshold;
+  options.even.max_cells = std::min(options.even.max_cells, options.max_hexes);
+  if (options.sizing.sizing != Sizing::Deviation) options.even.transition_cost = 0;  // the paper's
   options.judge.distance.spacing = std::min(options.judge.distance.spacing, 1.5 * threshold);
   return options;
 }
@@ -42,6 +44,12 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
         static_cast<double>(sizing.splits_by_reason[r]);
 }
 
+/// Completes a grid, with its levels evened out where transitions cost more than they save.
+CompleteResult even_out(const RoundInput& input, const Grid& grid) {
+  return even_levels(grid, input.tree, input.options.complete, input.options.even, input.context)
+      .completed;
+}
+
 /// Completes the a-priori grid; when the result breaks the budget, builds the grid again one level
 /// less deep.
 CompleteResult complete_within_budget(const RoundInput& input, const FeatureGraph& features,
@@ -52,9 +60,8 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
       return build_grid(input.tree.surface(), features, sizing, input.context);
     });
     record_sizing(result.sizing, result.stages.back());
-    CompleteResult completed = run_stage(result.stages, "complete", input.context, [&] {
-      return complete(result.sizing.grid, input.options.complete, input.context);
-    });
+    CompleteResult completed = run_stage(result.stages, "complete", input.context,
+                                         [&] { return even_out(input, result.sizing.grid); });
     result.stages.back().counts["cells"] = static_cast<double>(completed.grid.num_cells());
     if (completed.grid.num_cells() <= input.options.max_hexes) return completed;
     if (result.sizing.reached_level <= sizing.min_level)
@@ -88,8 +95,7 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
     const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
     result.rounds.back().num_marked = num_marked;
     if (num_marked == 0) break;
-    CompleteResult next =
-        complete(split_cells(current.grid, marks), options.complete, input.context);
+    CompleteResult next = even_out(input, split_cells(current.grid, marks));
     const std::size_t num_cells = next.grid.num_cells();
     if (num_cells > options.max_hexes || total_hexes + num_cells > budget) {
       input.context.warn(fmt::format(

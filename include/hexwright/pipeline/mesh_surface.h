@@ -13,6 +13,7 @@
 #include "hexwright/fit/fit.h"
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/grid/complete.h"
+#include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
 #include "hexwright/quality/judge.h"
 
@@ -21,6 +22,7 @@ namespace hexwright {
 struct MeshOptions {
   SizingOptions sizing;
   CompleteOptions complete;
+  EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   DualOptions dual;  ///< mode follows complete.pairing
   FitOptions fit;
   JudgeOptions judge;  ///< the features' angles follow fit.features
