@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kMaxRestarts = 6;
 constexpr int kMaxFutileRestarts = 2;  // restarts in a row that leave no fewer quads unpadded
+constexpr double kNegligible = 0.01;   // share of unpadded quads that is not worth a restart
 constexpr int kSweepsAfterBatch = 3;
 constexpr int kSweepsBeforeRetry = 6;
 constexpr int kRingsBeforeRetry = 2;  // around the groups that found no room
@@ -56,6 +57,8 @@ class SelectivePadder {
   SelectivePadding run() {
     std::vector<GroupId> todo = choose_groups();
     std::optional<SelectivePadding> best;
+    const auto max_failed_quads =
+        static_cast<std::size_t>(kNegligible * static_cast<double>(start_.state.quads.size()));
     int num_futile = 0;
     for (int restart = 0; restart < kMaxRestarts && num_futile < kMaxFutileRestarts; ++restart) {
       SelectivePadding attempt = start_;
@@ -68,7 +71,7 @@ class SelectivePadder {
         best = std::move(attempt);
         num_futile = 0;
       }
-      if (failed.empty()) break;
+      if (best->report.num_failed_quads <= max_failed_quads) break;
       bring_forward(failed, todo);
     }
     return std::move(*best);

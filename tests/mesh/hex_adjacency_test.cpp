@@ -1,5 +1,7 @@
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include <random>
+
 #include "helpers.h"
 
 namespace hexwright {
@@ -30,6 +32,59 @@ TEST(HexAdjacency, ThreeHexesOnAFaceAreReported) {
   HexMesh mesh = test::box_hex_mesh(2, 1, 1);
   mesh.hexes.push_back(mesh.hexes[HexId(1)]);
   EXPECT_FALSE(compute_hex_neighbors(mesh).non_conforming.empty());
+}
+
+/// Faces, in order of (hex, lf), by the number of hexes with the same four vertices.
+std::vector<HexFace> faces_shared_by(const HexMesh& mesh, bool (*is_wanted)(std::ptrdiff_t)) {
+  std::vector<std::array<VertId, 4>> keys;
+  for (HexId h : mesh.hexes.ids())
+    for (int lf = 0; lf < 6; ++lf) {
+      keys.push_back(face_verts(mesh, {h, lf}));
+      std::sort(keys.back().begin(), keys.back().end());
+    }
+  std::vector<HexFace> faces;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (is_wanted(std::count(keys.begin(), keys.end(), keys[i])))
+      faces.push_back({HexId(i / 6), static_cast<int>(i % 6)});
+  return faces;
+}
+
+bool same_faces(const std::vector<HexFace>& a, const std::vector<HexFace>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HexFace& x, const HexFace& y) {
+    return x.hex == y.hex && x.lf == y.lf;
+  });
+}
+
+TEST(HexAdjacency, AgreesWithBruteForceOnTangledHexes) {
+  std::mt19937 random(11);
+  for (int round = 0; round < 20; ++round) {
+    HexMesh mesh = test::box_hex_mesh(2, 2, 3);
+    // Doubled, rotated and torn hexes, and vertex ids in another order.
+    for (HexId h : {HexId(1), HexId(4), HexId(4)}) mesh.hexes.push_back(mesh.hexes[h]);
+    for (auto& hex : mesh.hexes)
+      if (random() % 4 == 0) std::rotate(hex.begin(), hex.begin() + 4, hex.end());
+    mesh.hexes[HexId(random() % 12)][random() % 8] = VertId(random() % 36);
+    std::vector<VertId> renamed;
+    for (VertId v : mesh.positions.ids()) renamed.push_back(v);
+    std::shuffle(renamed.begin(), renamed.end(), random);
+    for (auto& hex : mesh.hexes)
+      for (VertId& v : hex) v = renamed[v.index()];
+    const HexNeighbors found = compute_hex_neighbors(mesh);
+    EXPECT_TRUE(
+        same_faces(found.boundary, faces_shared_by(mesh, [](std::ptrdiff_t n) { return n == 1; })));
+    EXPECT_TRUE(same_faces(found.non_conforming,
+                           faces_shared_by(mesh, [](std::ptrdiff_t n) { return n > 2; })));
+    std::size_t num_matched = 0;
+    for (HexId h : mesh.hexes.ids())
+      for (std::size_t lf = 0; lf < 6; ++lf) {
+        const HexId other = found.neighbor[h][lf];
+        if (!other.is_valid()) continue;
+        ++num_matched;
+        const auto& back = found.neighbor[other];
+        EXPECT_NE(std::find(back.begin(), back.end(), h), back.end());
+      }
+    EXPECT_EQ(num_matched, faces_shared_by(mesh, [](std::ptrdiff_t n) { return n == 2; }).size());
+  }
 }
 
 TEST(HexMesh, RemoveUnusedVertsKeepsGeometryAndLabels) {
