@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hexwright/base/parallel.h"
+#include "hexwright/geometry/surface_topology.h"
 
 #include "quality/disjoint_sets.h"
 
@@ -16,33 +17,6 @@ constexpr double kNearRadii = 1.5;  // farther centres (in hex radii) have the w
 
 double filled(double signed_distance_in_edges) {
   return std::clamp(0.5 - signed_distance_in_edges, 0.0, 1.0);
-}
-
-// Every directed edge has as many opposites: the triangles bound something, and their winding
-// number changes across the surface only.
-bool is_oriented_cycle(const TriMesh& surface) {
-  struct Edge {
-    VertId lo, hi;
-    int sign;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * surface.num_tris());
-  for (const auto& tri : surface.tris)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const VertId a = tri[k], b = tri[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
-    }
-  parallel_stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.lo != b.lo ? a.lo < b.lo : a.hi < b.hi;
-  });
-  int balance = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    balance += edges[i].sign;
-    const bool is_last =
-        i + 1 == edges.size() || edges[i + 1].lo != edges[i].lo || edges[i + 1].hi != edges[i].hi;
-    if (is_last && balance != 0) return false;
-  }
-  return true;
 }
 
 struct Classifier {

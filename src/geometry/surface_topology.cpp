@@ -1,7 +1,10 @@
 // Components, Euler characteristic and defects of any triangle soup, by union-find.
 #include "hexwright/geometry/surface_topology.h"
 
+#include <algorithm>
 #include <vector>
+
+#include "hexwright/base/parallel.h"
 
 #include "geometry/surface_edges.h"
 
@@ -74,6 +77,31 @@ SurfaceTopology compute_topology(const TriMesh& surface) {
                                 static_cast<long>(edges.size()) +
                                 static_cast<long>(surface.num_tris());
   return result;
+}
+
+bool is_oriented_cycle(const TriMesh& surface) {
+  struct Edge {
+    VertId lo, hi;
+    int sign;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * surface.num_tris());
+  for (const auto& tri : surface.tris)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertId a = tri[k], b = tri[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+    }
+  parallel_stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.lo != b.lo ? a.lo < b.lo : a.hi < b.hi;
+  });
+  int balance = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    balance += edges[i].sign;
+    const bool is_last =
+        i + 1 == edges.size() || edges[i + 1].lo != edges[i].lo || edges[i + 1].hi != edges[i].hi;
+    if (is_last && balance != 0) return false;
+  }
+  return true;
 }
 
 }  // namespace hexwright

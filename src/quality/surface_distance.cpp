@@ -13,6 +13,7 @@
 #include "hexwright/base/function_ref.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/exposure.h"
+#include "hexwright/geometry/surface_topology.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "quality/triangle_samples.h"
@@ -148,8 +149,11 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
     return is_closing_hole(boundary, surface, p, d);
   };
   Partial to_mesh = measure(surface.surface(), {boundary, hot, is_off_solid, trusted}, spacing);
+  // The winding number of a closed surface changes on it only: there is no hole to close.
+  const double trusted_off_surface =
+      is_oriented_cycle(surface.surface()) ? std::numeric_limits<double>::infinity() : trusted;
   const Partial to_surface =
-      measure(boundary.surface(), {surface, hot, closes_hole, trusted}, spacing);
+      measure(boundary.surface(), {surface, hot, closes_hole, trusted_off_surface}, spacing);
 
   SurfaceDistance result;
   result.max_to_mesh = max_of(to_mesh) / diagonal;

@@ -55,6 +55,19 @@ TEST(Topology, CountsBoundaryEdgesOfAnOpenCube) {
   EXPECT_FALSE(compute_topology(open).is_closed_manifold());
 }
 
+TEST(Topology, AnOrientedCycleIsBalancedAlongEveryEdge) {
+  TriMesh cube = test::unit_cube_surface();
+  EXPECT_TRUE(is_oriented_cycle(cube));
+  TriMesh twice = cube;
+  for (const auto& tri : cube.tris) twice.tris.push_back(tri);
+  EXPECT_TRUE(is_oriented_cycle(twice));  // though four triangles meet at each edge
+  TriMesh flipped = cube;
+  std::swap(flipped.tris[TriId(3)][0], flipped.tris[TriId(3)][1]);
+  EXPECT_FALSE(is_oriented_cycle(flipped));
+  cube.tris.resize(11);
+  EXPECT_FALSE(is_oriented_cycle(cube));
+}
+
 TEST(Topology, FindsAVertexSharedByTwoFans) {
   TriMesh cubes = test::unit_cube_surface();
   append_moved(cubes, test::unit_cube_surface(), {1, 1, 1});

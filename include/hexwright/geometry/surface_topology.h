@@ -20,6 +20,10 @@ struct SurfaceTopology {
 
 SurfaceTopology compute_topology(const TriMesh& surface);
 
+/// Every directed edge has as many opposites: the triangles bound something, and their generalised
+/// winding number changes across the surface only.
+bool is_oriented_cycle(const TriMesh& surface);
+
 /// Component of each triangle (connected across edges), numbered by first triangle.
 IdVector<TriId, int> compute_components(const TriMesh& surface);
 
