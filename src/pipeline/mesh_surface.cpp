@@ -131,7 +131,10 @@ void map_to_world(const Similarity& frame, MeshResult& result) {
   result.sizing.grid.frame = to_world(frame, result.sizing.grid.frame);
   Verdict& v = result.verdict;
   v.quality.total_volume *= s * s * s;
-  if (v.features) v.features->total_length *= s;
+  if (v.features) {
+    v.features->total_length *= s;
+    for (Vec3& p : v.features->missed) p = frame.to_world(p);
+  }
   if (v.distance) {
     v.distance->worst_on_surface = frame.to_world(v.distance->worst_on_surface);
     v.distance->worst_on_mesh = frame.to_world(v.distance->worst_on_mesh);

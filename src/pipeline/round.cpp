@@ -42,6 +42,27 @@ bool has_expected_topology(const RoundInput& input, const Round& round) {
          t.boundary_euler_characteristic == input.expected.euler_characteristic;
 }
 
+/// Share of the surface's feature length from which on its curves count as mapped: below, what is
+/// missing has no path of edges, or is noise that the fit left out, and refining along it is
+/// endless.
+constexpr double kMappedShare = 0.9;
+/// The tolerance for distances is at most so many times the one for features (the default is five):
+/// who asks for a coarse mesh does not pay for close curves.
+constexpr double kMaxFeatureFactor = 5.001;
+
+double feature_share(const Round& round) {
+  return round.verdict.features ? round.verdict.features->length_share : 1;
+}
+
+/// Whether the curves call for finer cells: mapped, but their edges do not follow them closely.
+bool misses_features(const RoundInput& input, const Round& round) {
+  const MeshOptions& options = input.options;
+  if (!round.verdict.features || feature_share(round) >= options.min_feature_share) return false;
+  if (options.sizing.tolerance > kMaxFeatureFactor * options.judge.edge_tolerance) return false;
+  return round.fit.report.curve_length_mapped >=
+         kMappedShare * round.verdict.features->total_length;
+}
+
 double max_distance(const Round& round) {
   return round.verdict.distance ? round.verdict.distance->max_two_way() : 1;
 }
@@ -84,19 +105,21 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
 bool is_content(const RoundInput& input, const Round& round) {
   return round.verdict.is_valid() && has_expected_topology(input, round) &&
          max_distance(round) <= input.options.sizing.tolerance &&
-         round.verdict.quality.min_scaled_jacobian >= input.options.min_quality;
+         round.verdict.quality.min_scaled_jacobian >= input.options.min_quality &&
+         !misses_features(input, round);
 }
 
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
-    return std::array<bool, 4>{r.verdict.is_valid(), has_expected_topology(input, r),
+    return std::array<bool, 5>{r.verdict.is_valid(), has_expected_topology(input, r),
                                max_distance(r) <= input.options.sizing.tolerance,
-                               r.verdict.quality.min_scaled_jacobian >= input.options.min_quality};
+                               r.verdict.quality.min_scaled_jacobian >= input.options.min_quality,
+                               !misses_features(input, r)};
   };
   if (rank(a) != rank(b)) return rank(a) > rank(b);
-  if (max_distance(a) <= input.options.sizing.tolerance)
-    return a.fit.mesh.num_hexes() < b.fit.mesh.num_hexes();
-  return max_distance(a) < max_distance(b);
+  if (max_distance(a) > input.options.sizing.tolerance) return max_distance(a) < max_distance(b);
+  if (misses_features(input, a)) return feature_share(a) > feature_share(b);
+  return a.fit.mesh.num_hexes() < b.fit.mesh.num_hexes();
 }
 
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
@@ -104,6 +127,10 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   if (round.verdict.distance) points = round.verdict.distance->hot;
   const auto& lost = round.fit.report.carve.lost;
   points.insert(points.end(), lost.begin(), lost.end());
+  if (misses_features(input, round)) {
+    const auto& missed = round.verdict.features->missed;
+    points.insert(points.end(), missed.begin(), missed.end());
+  }
   const int deepest =
       std::min(input.options.sizing.max_level + input.options.loop_extra_levels, kMaxGridLevel);
   return mark_cells_with_points(round.grid, points, deepest);

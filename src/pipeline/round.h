@@ -34,11 +34,12 @@ Round run_round(const RoundInput& input, CompleteResult completed);
 bool is_content(const RoundInput& input, const Round& round);
 
 /// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
-/// tolerance before beyond, then quality; among equals the nearer one, or the smaller one when
-/// both are within.
+/// tolerance before beyond, then quality, then features that are followed closely. Among equals the
+/// nearer one; when both are near enough, the one that follows more of its features, and when both
+/// follow enough, the smaller one.
 bool is_better(const RoundInput& input, const Round& a, const Round& b);
 
-/// Leaves of the completed grid that hold points the fit missed.
+/// Leaves of the completed grid that hold points the fit missed, of the surface or of its features.
 std::vector<char> mark_misses(const RoundInput& input, const Round& round);
 
 /// Fills `failures` and `warnings` of the result by the gate.

@@ -65,9 +65,9 @@ Box3 inflated_box(const Vec3& a, const Vec3& b, double margin) {
   return {min(a, b) - m, max(a, b) + m};
 }
 
-// Length of the pieces whose sample has an edge along it within the tolerance.
-double recovered_length(const HexMesh& mesh, const std::vector<Edge>& edges,
-                        const CurveSamples& samples, double tolerance) {
+// Per sample: 1 when an edge runs along it within the tolerance.
+std::vector<char> find_recovered(const HexMesh& mesh, const std::vector<Edge>& edges,
+                                 const CurveSamples& samples, double tolerance) {
   const PointTree tree(samples.points);
   std::vector<char> is_recovered(samples.points.size(), 0);
   parallel_for(
@@ -83,14 +83,12 @@ double recovered_length(const HexMesh& mesh, const std::vector<Edge>& edges,
         });
       },
       256);
-  double length = 0;
-  for (std::size_t i = 0; i < is_recovered.size(); ++i)
-    if (is_recovered[i]) length += samples.lengths[i];
-  return length;
+  return is_recovered;
 }
 
-std::size_t count_recovered_corners(const HexMesh& mesh, const std::vector<Edge>& edges,
-                                    const std::vector<Vec3>& corners, double tolerance) {
+// Corners farther than the tolerance from every vertex of the edges.
+std::vector<Vec3> find_missed_corners(const HexMesh& mesh, const std::vector<Edge>& edges,
+                                      const std::vector<Vec3>& corners, double tolerance) {
   std::vector<VertId> verts;
   for (const Edge& edge : edges) verts.insert(verts.end(), edge.begin(), edge.end());
   std::sort(verts.begin(), verts.end());
@@ -98,15 +96,15 @@ std::size_t count_recovered_corners(const HexMesh& mesh, const std::vector<Edge>
   std::vector<Vec3> points;
   for (VertId v : verts) points.push_back(mesh.positions[v]);
   const PointTree tree(std::move(points));
-  std::size_t count = 0;
+  std::vector<Vec3> missed;
   for (const Vec3& corner : corners) {
     bool is_near = false;
     tree.visit_box(inflated_box(corner, corner, tolerance), [&](std::size_t i) {
       is_near = is_near || norm_sq(tree.points()[i] - corner) <= tolerance * tolerance;
     });
-    if (is_near) ++count;
+    if (!is_near) missed.push_back(corner);
   }
-  return count;
+  return missed;
 }
 
 }  // namespace
@@ -122,13 +120,22 @@ FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
   if (result.total_length > 0) {
     const double tolerance = options.edge_tolerance * diagonal;
     const CurveSamples samples = sample_curves(surface, features, tolerance);
-    const double length = recovered_length(mesh, edges, samples, tolerance);
+    const std::vector<char> is_recovered = find_recovered(mesh, edges, samples, tolerance);
+    double length = 0;
+    for (std::size_t i = 0; i < is_recovered.size(); ++i) {
+      if (is_recovered[i])
+        length += samples.lengths[i];
+      else
+        result.missed.push_back(samples.points[i]);
+    }
     result.length_share = std::min(1.0, length / result.total_length);
   }
   std::vector<Vec3> corners;
   for (VertId v : features.corners) corners.push_back(surface.positions[v]);
-  result.num_corners_recovered =
-      count_recovered_corners(mesh, edges, corners, options.corner_tolerance * diagonal);
+  const auto missed =
+      find_missed_corners(mesh, edges, corners, options.corner_tolerance * diagonal);
+  result.num_corners_recovered = corners.size() - missed.size();
+  result.missed.insert(result.missed.end(), missed.begin(), missed.end());
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "fit/boundary_quads.h"
 #include "fit/map_features.h"
 #include "helpers.h"
+#include "solids.h"
 
 namespace hexwright::test {
 
@@ -69,27 +70,6 @@ inline HexMesh voxels(int n, const std::function<bool(const Vec3&)>& is_inside) 
     if (is_kept[h.index()]) mesh.hexes.push_back(box.hexes[h]);
   remove_unused_verts(mesh);
   return mesh;
-}
-
-/// A closed cylinder along z about (x, y) = (center, center).
-inline TriMesh cylinder_surface(double center, double radius, double z0, double z1, int segments) {
-  TriMesh s;
-  for (double z : {z0, z1})
-    for (int k = 0; k < segments; ++k) {
-      const double a = 2 * std::numbers::pi * k / segments;
-      s.positions.push_back({center + radius * std::cos(a), center + radius * std::sin(a), z});
-    }
-  const VertId bottom = s.positions.push_back({center, center, z0});
-  const VertId top = s.positions.push_back({center, center, z1});
-  for (int k = 0; k < segments; ++k) {
-    const int next = (k + 1) % segments;
-    const VertId a(k), b(next), c(segments + next), d(segments + k);
-    s.tris.push_back({a, b, c});
-    s.tris.push_back({a, c, d});
-    s.tris.push_back({bottom, b, a});
-    s.tris.push_back({top, d, c});
-  }
-  return s;
 }
 
 inline void transform(IdVector<VertId, Vec3>& positions,

@@ -10,6 +10,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "helpers.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
@@ -125,6 +126,23 @@ TEST(MeshSurface, RefinementGoesWhereTheFitMissed) {
                    r.verdict.distance->max_two_way());
   for (std::size_t k = 1; k < r.rounds.size(); ++k)
     EXPECT_GT(r.rounds[k].num_cells, r.rounds[k - 1].num_cells);
+}
+
+TEST(MeshSurface, RefinementFollowsCurvesMoreCloselyThanTheSurface) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.005;
+  options.max_rounds = 4;
+  const TriMesh cylinder = test::cylinder_surface(0, 0.35, 0, 1, 96);
+  const MeshResult close = mesh_surface(cylinder, options, {});
+  options.min_feature_share = 0;  // the distance alone decides
+  const MeshResult far = mesh_surface(cylinder, options, {});
+  for (const MeshResult* r : {&close, &far}) {
+    expect_valid(*r);
+    EXPECT_LE(r->verdict.distance->max_two_way(), options.sizing.tolerance);
+  }
+  EXPECT_LT(far.verdict.features->length_share, 0.98);
+  EXPECT_GE(close.verdict.features->length_share, 0.98);
+  EXPECT_LT(far.mesh.num_hexes(), close.mesh.num_hexes());
 }
 
 TEST(MeshSurface, ASinglePassMakesOneRound) {

@@ -50,6 +50,12 @@ TEST(Judge, AMovedEdgeIsALostFeature) {
   // The four mesh edges that meet it leave the tolerance at a fifth of their length 1/4.
   EXPECT_NEAR(verdict.features->length_share, (11 - 4 * 0.25 * 0.8) / 12, 0.002);
   EXPECT_EQ(verdict.features->num_corners_recovered, 6u);
+  // What is missed lies on that edge and on the ends of those four; one point per tolerance.
+  const double spacing = JudgeOptions{}.edge_tolerance * kDiagonal;
+  EXPECT_NEAR(static_cast<double>(verdict.features->missed.size()) * spacing, 1 + 4 * 0.25 * 0.8,
+              0.05);
+  for (const Vec3& p : verdict.features->missed)
+    EXPECT_LE(std::max(p.x, p.y), 0.25) << p.x << ' ' << p.y << ' ' << p.z;
 }
 
 TEST(Judge, EdgesThatOnlyCrossACurveDoNotRecoverIt) {

@@ -30,6 +30,9 @@ struct MeshOptions {
   int max_rounds = 6;                 ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;     ///< leaves farther off than this share of the tolerance split
   double min_quality = 0.2;           ///< least scaled Jacobian the loop is content with
+  /// Share of the feature length within judge.edge_tolerance of mesh edges that the loop is content
+  /// with; it refines along curves that are mapped but too coarsely. 0 = not for features.
+  double min_feature_share = 0.98;
   int loop_extra_levels = 3;          ///< the loop may go so much deeper than sizing.max_level
   std::size_t max_hexes = 2'000'000;  ///< budget of one background mesh
   /// Budget of the loop: no further round once the background meshes of all rounds together would

@@ -23,6 +23,9 @@ struct FeatureRecovery {
   std::size_t num_corners = 0;
   std::size_t num_corners_recovered =
       0;  ///< within corner_tolerance of a mesh vertex on the boundary
+  /// Points every edge_tolerance along the length that is not represented, and the corners that are
+  /// not recovered; in the mesh's coordinates.
+  std::vector<Vec3> missed;
 };
 
 struct JudgeOptions {
