@@ -129,7 +129,9 @@ class Improver {
       grow_vert_set(state_, region, 1);
       update_slide_targets(region);
       const LocalSweep local(state_, region);
-      for (int s = 0; s < 6; ++s) local.run(state_, {{1, power, 0}, 0, 0.01});
+      SweepOptions sweep_options{{1, power, 0}, 0, 0.01};
+      sweep_options.edge_floor = kEdgeFloor;
+      for (int s = 0; s < 6; ++s) local.run(state_, sweep_options);
       if (keep_if_better()) continue;
       if (power >= 256 || 2 * power * -std::log10(least) > 100) break;
       power *= 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hexwright/base/context.h"
+#include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/finish.h"
@@ -25,64 +26,111 @@ struct Score {
   }
 };
 
-Score score(const FitState& state, const IdVector<HexId, double>& quality) {
-  Score s;
-  s.least = *std::min_element(quality.begin(), quality.end());
-  for (VertId v : state.kind.ids()) {
-    const double r = state.stars[v].empty() ? 0 : state.residual(v);
-    s.residual += r * r;
-    s.worst_residual = std::max(s.worst_residual, r);
+class Lifter {
+ public:
+  Lifter(FitState& state, const FitTarget& target, const LiftOptions& options)
+      : state_(state), target_(target), options_(options) {
+    update_targets(state, target, 0);
+    quality_ = compute_scaled_jacobians(state.mesh);
+    residual_.assign(state.num_verts(), 0);
+    for (VertId v : residual_.ids()) measure_residual(v);
+    remember(score());
   }
-  return s;
-}
 
-std::vector<char> surroundings(const FitState& state, const IdVector<HexId, double>& quality,
-                               double low) {
-  std::vector<char> region(state.num_verts(), 0);
-  for (HexId h : quality.ids())
-    if (quality[h] <= low)
-      for (VertId v : state.mesh.hexes[h]) region[v.index()] = 1;
-  grow_vert_set(state, region, 1);
-  return region;
-}
+  void run(const Context& context) {
+    int power = 3;
+    for (int round = 0; round < options_.max_rounds && best_.least < options_.goal; ++round) {
+      context.check_cancelled();
+      work_on_worst(power);
+      const Score now = score();
+      if (now.beats(best_, options_.residual_slack)) {
+        const bool is_progress = now.least > best_.least + 1e-3;
+        remember(now);
+        if (is_progress) continue;
+      }
+      if (power >= 48) break;
+      power *= 2;
+    }
+    state_.mesh.positions = best_positions_;
+    state_.arc = best_arcs_;
+    update_targets(state_, target_, 0);
+  }
+
+ private:
+  void work_on_worst(int power) {
+    const double least = *std::min_element(quality_.begin(), quality_.end());
+    const auto region = surroundings(std::min(options_.goal, least + 0.1 * (1 - least)));
+    update_targets(state_, target_, 0, region);
+    {
+      const SlideOnly slide(state_, region);
+      const LocalSweep local(state_, region);
+      SweepOptions options{{1, power, 0}, 0, 0.03};
+      options.edge_floor = kEdgeFloor;
+      for (int s = 0; s < 4; ++s) local.run(state_, options);
+    }
+    snap_to_targets(state_, target_, least, region);
+    measure(region);
+  }
+
+  std::vector<char> surroundings(double low) const {
+    std::vector<char> region(state_.num_verts(), 0);
+    for (HexId h : quality_.ids())
+      if (quality_[h] <= low)
+        for (VertId v : state_.mesh.hexes[h]) region[v.index()] = 1;
+    grow_vert_set(state_, region, 1);
+    return region;
+  }
+
+  void measure_residual(VertId v) {
+    residual_[v] = state_.stars[v].empty() ? 0 : state_.residual(v);
+  }
+
+  // What changed when the vertices of a region moved: rounds cost what they touch.
+  void measure(const std::vector<char>& region) {
+    const auto is_in_region = [&](VertId v) { return region[v.index()] != 0; };
+    parallel_for(
+        quality_.size(),
+        [&](std::size_t i) {
+          const auto& hex = state_.mesh.hexes[HexId(i)];
+          if (std::any_of(hex.begin(), hex.end(), is_in_region))
+            quality_[HexId(i)] = scaled_jacobian(state_.mesh.corners(HexId(i)));
+        },
+        2048);
+    for (VertId v : residual_.ids())
+      if (is_in_region(v)) measure_residual(v);
+  }
+
+  Score score() const {
+    Score s;
+    s.least = *std::min_element(quality_.begin(), quality_.end());
+    for (double r : residual_) {
+      s.residual += r * r;
+      s.worst_residual = std::max(s.worst_residual, r);
+    }
+    return s;
+  }
+
+  void remember(const Score& score) {
+    best_ = score;
+    best_positions_ = state_.mesh.positions;
+    best_arcs_ = state_.arc;
+  }
+
+  FitState& state_;
+  const FitTarget& target_;
+  const LiftOptions& options_;
+  IdVector<HexId, double> quality_;
+  IdVector<VertId, double> residual_;  // in h
+  Score best_;
+  IdVector<VertId, Vec3> best_positions_;
+  IdVector<VertId, double> best_arcs_;  // targets on curves are looked for near these
+};
 
 }  // namespace
 
 void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& options,
                 const Context& context) {
-  update_targets(state, target, 0);
-  auto quality = compute_scaled_jacobians(state.mesh);
-  Score best = score(state, quality);
-  auto best_positions = state.mesh.positions;
-  auto best_arcs = state.arc;  // targets on curves are looked for near these
-  int power = 3;
-  for (int round = 0; round < options.max_rounds && best.least < options.goal; ++round) {
-    context.check_cancelled();
-    const double least = *std::min_element(quality.begin(), quality.end());
-    const auto region =
-        surroundings(state, quality, std::min(options.goal, least + 0.1 * (1 - least)));
-    update_targets(state, target, 0, region);
-    {
-      const SlideOnly slide(state, region);
-      const LocalSweep local(state, region);
-      for (int s = 0; s < 4; ++s) local.run(state, {{1, power, 0}, 0, 0.03});
-    }
-    snap_to_targets(state, target, least, region);
-    quality = compute_scaled_jacobians(state.mesh);
-    const Score now = score(state, quality);
-    if (now.beats(best, options.residual_slack)) {
-      const bool is_progress = now.least > best.least + 1e-3;
-      best = now;
-      best_positions = state.mesh.positions;
-      best_arcs = state.arc;
-      if (is_progress) continue;
-    }
-    if (power >= 48) break;
-    power *= 2;
-  }
-  state.mesh.positions = best_positions;
-  state.arc = best_arcs;
-  update_targets(state, target, 0);
+  Lifter(state, target, options).run(context);
 }
 
 }  // namespace hexwright::fitting

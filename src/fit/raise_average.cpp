@@ -55,6 +55,7 @@ void sweep_for_average(FitState& state, double least, const AverageOptions& opti
     const auto weight = compute_weights(state.mesh, options.power);
     SweepOptions sweep_options{{1, options.power, 0}, 0, options.tolerance};
     sweep_options.quality_floor = least;
+    sweep_options.edge_floor = kEdgeFloor;
     sweep_options.hex_weight = &weight;
     sweep(state, sweep_options);
   }

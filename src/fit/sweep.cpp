@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "hexwright/base/parallel.h"
 
@@ -45,7 +46,8 @@ class Solver {
     const auto star = state_.stars[v];
     const double moved =
         newton_.solve(v, star, goal_of(v), shape, IdSpan<VertId, Vec3>(state_.mesh.positions));
-    if (moved > 0 && options_.quality_floor > 0 && is_too_poor(v, origin)) {
+    if (moved > 0 && ((options_.edge_floor > 0 && has_short_edge(v, origin)) ||
+                      (options_.quality_floor > 0 && is_too_poor(v, origin)))) {
       state_.mesh.positions[v] = origin;
       return;
     }
@@ -65,6 +67,20 @@ class Solver {
       goal.hex_weights = weights_;
     }
     return goal;
+  }
+
+  double shortest_edge_sq(VertId v, const Vec3& at) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const HexStar& star : state_.stars[v])
+      for (std::size_t k = 0; k < 3; ++k)
+        least = std::min(least, norm_sq(state_.mesh.positions[star[k]] - at));
+    return least;
+  }
+
+  bool has_short_edge(VertId v, const Vec3& origin) const {
+    const double floor = options_.edge_floor * state_.size[v];
+    const double after = shortest_edge_sq(v, state_.mesh.positions[v]);
+    return after < floor * floor && after < shortest_edge_sq(v, origin);
   }
 
   // Below the floor and poorer than at the origin, or without a proof that was there.

@@ -8,6 +8,9 @@
 
 namespace hexwright::fitting {
 
+/// The share of h below which passes that weigh scaled Jacobians alone let no edge shrink.
+constexpr double kEdgeFloor = 0.15;
+
 struct SweepOptions {
   ShapeEnergy shape;
   double weight = 0;        ///< of the attachment; divided by h^2 at each vertex
@@ -15,6 +18,10 @@ struct SweepOptions {
   /// When positive: a move that takes the least scaled Jacobian around the vertex below this, and
   /// below what it was, is undone.
   double quality_floor = 0;
+  /// When positive: a move that takes an edge at the vertex below this share of h, and below what
+  /// its shortest edge was, is undone: the scaled Jacobian does not see lengths, and lets edges
+  /// shrink to nothing.
+  double edge_floor = 0;
   /// Factors of the hexes' shape energies; empty = all one.
   const IdVector<HexId, double>* hex_weight = nullptr;
   double untangle_share = 0;  ///< when positive: regularises determinants by this share of h^3

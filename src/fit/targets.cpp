@@ -2,6 +2,8 @@
 // normal is given up where it would lead far away, and so is the patch.
 #include "fit/targets.h"
 
+#include <algorithm>
+
 #include "hexwright/base/parallel.h"
 
 #include "fit/curve_targets.h"
@@ -9,14 +11,17 @@
 namespace hexwright::fitting {
 namespace {
 
-IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state) {
+// Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
+IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<const char> only) {
   IdVector<VertId, Vec3> normals(state.num_verts());
   const auto& p = state.mesh.positions;
   for (const auto& q : state.quads) {
+    if (!only.empty() &&
+        std::none_of(q.begin(), q.end(), [&](VertId v) { return only[v.index()] != 0; }))
+      continue;
     const Vec3 n = normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
     for (VertId v : q) normals[v] += n;
   }
-  for (Vec3& n : normals) n = normalized(n);
   return normals;
 }
 
@@ -98,14 +103,14 @@ void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, c
 
 void update_targets(FitState& state, const FitTarget& target, double hold,
                     std::span<const char> only) {
-  const auto normals = compute_vertex_normals(state);
+  const auto normals = compute_vertex_normals(state, only);
   parallel_for(
       state.num_verts(),
       [&](std::size_t i) {
         const VertId v(i);
         if (!only.empty() && !only[i]) return;
         if (state.kind[v] == VertKind::Surface) {
-          update_surface_target(state, target.tree, v, normals[v]);
+          update_surface_target(state, target.tree, v, normalized(normals[v]));
         } else if (state.kind[v] != VertKind::Interior && target.features) {
           update_feature_target(state, v, target.tree.surface(), *target.features, hold);
         }

@@ -57,6 +57,28 @@ TEST(RaiseAverage, StraightensAJitteredGrid) {
   EXPECT_GT(summarize_quality(state.mesh).min_scaled_jacobian, 0.999);
 }
 
+double shortest_edge_ratio(const FitState& state) {
+  double least = 1;
+  for (VertId v : state.kind.ids())
+    for (const HexStar& star : state.stars[v])
+      for (std::size_t k = 0; k < 3; ++k)
+        least = std::min(least, distance(state.mesh.positions[v], state.mesh.positions[star[k]]) /
+                                    state.size[v]);
+  return least;
+}
+
+// The scaled Jacobian alone would let an edge vanish: all corners of a wedge can be good.
+TEST(RaiseAverage, LetsNoEdgeVanish) {
+  const SurfaceTree torus(test::torus_surface(1, 0.4, 60, 30));
+  FitState state = fitted_torus(torus);
+  state.update_sizes();
+  const double before = shortest_edge_ratio(state);
+  ASSERT_GT(before, kEdgeFloor);
+  lift_worst(state, {torus, nullptr}, {1.0, 12, 1e-4}, {});
+  for (int round = 0; round < 3; ++round) raise_average(state, {torus, nullptr}, {}, {});
+  EXPECT_GT(shortest_edge_ratio(state), 0.9 * kEdgeFloor);  // snapping may take a little
+}
+
 // Each round of weights and sweeps can only raise the softened average it maximises.
 TEST(RaiseAverage, RaisesTheAverageInEveryRound) {
   std::mt19937 rng(3);
