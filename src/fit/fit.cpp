@@ -29,6 +29,9 @@ namespace {
 using namespace fitting;
 
 constexpr int kSmoothRounds = 3;
+// Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
+// ones change neither the distances nor the features met, only the least scaled Jacobian.
+constexpr double kCostlyMiss = 0.1;
 constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
 
 // The first hex with a corner determinant that is not positive.
@@ -230,7 +233,7 @@ class Fitter {
   }
 
   // ... again after the lift, at no cost to the least, and down to the least quality allowed where
-  // the distance would otherwise count as a miss.
+  // the distance is worth it.
   void settle(FitState& state) {
     const auto quality = compute_scaled_jacobians(state.mesh);
     snap_to_targets(state, target(), *std::min_element(quality.begin(), quality.end()));
@@ -238,7 +241,7 @@ class Fitter {
     std::vector<char> is_miss(state.num_verts(), 0);
     bool any = false;
     for (VertId v : state.kind.ids()) {
-      if (state.stars[v].empty() || !(state.residual(v) > kMiss)) continue;
+      if (state.stars[v].empty() || !(state.residual(v) > kCostlyMiss)) continue;
       is_miss[v.index()] = 1;
       any = true;
     }
