@@ -22,6 +22,13 @@ DepthProblem BlockSweep::pose(BrickSet required, int depth) const {
   return out;
 }
 
+std::int64_t BlockSweep::least_cost(const BrickSet& required, int depth) const {
+  std::int64_t total = 0;
+  for (const LabelCosts& c : block_costs(required, find_clusters(required), depth, domain_))
+    total += *std::min_element(c.begin(), c.end());
+  return total;
+}
+
 void count_problem(const DepthProblem& problem, CompleteReport& report) {
   const LabelSolution& solution = problem.solution;
   report.num_clusters += problem.clusters.num_clusters;

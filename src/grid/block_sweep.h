@@ -39,6 +39,9 @@ class BlockSweep {
 
   DepthProblem pose(BrickSet required, int depth) const;
 
+  /// What the nodes' clusters cost at least at this depth, each by itself.
+  std::int64_t least_cost(const BrickSet& required, int depth) const;
+
   /// The union of the blocks that the labels choose.
   BrickSet split(const DepthProblem& problem, const std::vector<std::uint8_t>& labels,
                  int depth) const {

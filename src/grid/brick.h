@@ -30,6 +30,15 @@ inline constexpr std::array<BrickBits, 3> kAxisSlice = {0x1111111111111111, 0x00
                                                         0x000000000000ffff};
 inline constexpr std::array<int, 3> kAxisStep = {1, 4, 16};
 
+/// Number of nodes in a word. Without the processor's own instruction, which a portable build may
+/// not use, std::popcount is a call.
+constexpr int count_bits(BrickBits w) {
+  w -= w >> 1 & 0x5555555555555555;
+  w = (w & 0x3333333333333333) + (w >> 2 & 0x3333333333333333);
+  w = (w + (w >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return static_cast<int>(w * 0x0101010101010101 >> 56);
+}
+
 constexpr BrickKey brick_key(const LatticeCoord& brick) {
   return morton_encode(brick[0], brick[1], brick[2]);
 }

@@ -41,7 +41,7 @@ BrickSet::BrickSet(std::vector<Brick> bricks) : bricks_(std::move(bricks)) {
 
 std::size_t BrickSet::num_nodes() const {
   std::size_t count = 0;
-  for (const Brick& b : bricks_) count += static_cast<std::size_t>(std::popcount(b.bits));
+  for (const Brick& b : bricks_) count += static_cast<std::size_t>(count_bits(b.bits));
   return count;
 }
 

@@ -6,6 +6,7 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "grid/blocks.h"
 #include "grid/clusters.h"
 
 namespace hexwright {
@@ -77,21 +78,22 @@ std::array<BrickBits, kNumParities> representatives(BrickBits own,
   return out;
 }
 
-/// Number of domain nodes in the block that covers a node.
-int count_block_nodes(const LatticeCoord& node, Parity parity, int depth,
-                      const LatticeDomain& domain) {
-  const LatticeCoord v = block_center(node, parity);
-  int count = 0;
-  for (int q = 0; q < 8; ++q)
-    count += domain.contains({v[0] - (q & 1), v[1] - (q >> 1 & 1), v[2] - (q >> 2)}, depth);
-  return count;
+using Neighbourhood = std::array<BrickBits, 27>;
+
+/// The nodes of a brick and its neighbours that exist.
+Neighbourhood domain_masks(BrickKey key, int depth, const LatticeDomain& domain) {
+  Neighbourhood masks;
+  const auto keys = neighbour_keys(key);
+  for (int n = 0; n < 27; ++n) masks[n] = domain.mask(keys[n], depth);
+  return masks;
 }
 
-int count_nodes(BrickBits representatives_here, BrickKey key, Parity parity, int depth,
-                const LatticeDomain& domain) {
+/// Number of existing nodes in the blocks that cover some nodes, no two of them in one block.
+int count_block_nodes(BrickBits representatives, Parity parity, const Neighbourhood& masks) {
+  if (representatives == 0) return 0;
+  const auto grown = grow_to_blocks(representatives, parity);
   int count = 0;
-  for (BrickBits rest = representatives_here; rest != 0; rest &= rest - 1)
-    count += count_block_nodes(node_of_bit(key, std::countr_zero(rest)), parity, depth, domain);
+  for (int n = 0; n < 27; ++n) count += count_bits(grown[n] & masks[n]);
   return count;
 }
 
@@ -102,11 +104,12 @@ void brick_costs(const BrickSet& required, const Clusters& clusters, std::uint32
   const Brick& brick = required.bricks()[b];
   const auto first = representatives(brick.bits, required.neighbourhood(brick.key));
   const bool is_interior = domain.is_interior(brick.key, depth);
+  const Neighbourhood masks =
+      is_interior ? Neighbourhood{} : domain_masks(brick.key, depth, domain);
   for (std::uint32_t i = clusters.brick_offset[b]; i < clusters.brick_offset[b + 1]; ++i)
     for (Parity p = 0; p < kNumParities; ++p) {
       const BrickBits mine = first[p] & clusters.pieces[i].bits;
-      costs[i][p] =
-          is_interior ? 8 * std::popcount(mine) : count_nodes(mine, brick.key, p, depth, domain);
+      costs[i][p] = is_interior ? 8 * count_bits(mine) : count_block_nodes(mine, p, masks);
     }
 }
 

@@ -11,9 +11,10 @@ namespace hexwright {
 namespace {
 
 // Work allowed beyond the sweep's own, counted in bricks, not in seconds, so that results do not
-// depend on the machine: twice the sweep's, and what takes some milliseconds for small grids.
+// depend on the machine: twice the sweep's, and for small grids what takes some milliseconds. The
+// latter shrinks as grids grow, so that from about 10^5 cells on the sweep's time alone counts.
 constexpr std::size_t kWorkFactor = 2;
-constexpr std::size_t kMinWork = 60'000;
+constexpr std::size_t kSmallGridWork = 60'000, kShrinkFactor = 8;
 
 /// Each cluster's conflicts, as positions in the problem's list.
 std::vector<std::vector<std::uint32_t>> conflicts_by_cluster(const DepthProblem& problem) {
@@ -105,15 +106,16 @@ void Descent::compute_bounds() {
   const int num_depths = sweep_.num_depths();
   std::vector<std::int64_t> least(static_cast<std::size_t>(num_depths), 0);
   BrickSet certain;
+  std::size_t sweep_work = 0;
   for (int d = num_depths - 1; d >= 0; --d) {
-    DepthProblem problem = sweep_.pose(sweep_.required(d, certain), d);
-    for (const LabelCosts& c : problem.costs) least[d] += *std::min_element(c.begin(), c.end());
-    certain = std::move(problem.required);
-    budget_ += kWorkFactor * (certain.num_bricks() + kWorkPerSet);
+    certain = sweep_.required(d, certain);
+    least[d] = sweep_.least_cost(certain, d);
+    sweep_work += certain.num_bricks() + kWorkPerSet;
   }
   bound_above_.assign(static_cast<std::size_t>(num_depths) + 1, 0);
   for (int d = 0; d < num_depths; ++d) bound_above_[d + 1] = bound_above_[d] + least[d];
-  budget_ += kMinWork;
+  budget_ = kWorkFactor * sweep_work +
+            (kSmallGridWork - std::min(kSmallGridWork, kShrinkFactor * sweep_work));
 }
 
 std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t limit) {

@@ -32,6 +32,7 @@ LatticeDomain::LatticeDomain(const std::vector<LatticeCoord>& roots, int finest_
   }
   for (LatticeCoord& root : roots_)
     for (int a = 0; a < 3; ++a) root[a] += shift_[a];
+  tabulate_roots();
 }
 
 LatticeCoord LatticeDomain::unshifted(const LatticeCoord& node, int depth) const {
@@ -40,8 +41,22 @@ LatticeCoord LatticeDomain::unshifted(const LatticeCoord& node, int depth) const
   return out;
 }
 
-bool LatticeDomain::contains_root(const LatticeCoord& root) const {
-  if (roots_.size() == 1) return root == roots_.front();
+void LatticeDomain::tabulate_roots() {
+  constexpr std::int64_t kMaxTable = 1 << 20;
+  LatticeCoord hi = roots_.front();
+  low_ = roots_.front();
+  for (const LatticeCoord& root : roots_)
+    for (int a = 0; a < 3; ++a) {
+      low_[a] = std::min(low_[a], root[a]);
+      hi[a] = std::max(hi[a], root[a]);
+    }
+  for (int a = 0; a < 3; ++a) size_[a] = static_cast<std::uint32_t>(hi[a] - low_[a] + 1);
+  if (std::int64_t{size_[0]} * size_[1] * size_[2] > kMaxTable) return;
+  is_root_.assign(std::size_t{size_[0]} * size_[1] * size_[2], 0);
+  for (const LatticeCoord& root : roots_) is_root_[table_index(root)] = 1;
+}
+
+bool LatticeDomain::is_listed(const LatticeCoord& root) const {
   return std::binary_search(roots_.begin(), roots_.end(), root, root_less);
 }
 

@@ -4,6 +4,7 @@
 // they are never negative, even for the neighbours of the outermost nodes; parities stay the same.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "grid/brick.h"
@@ -30,10 +31,24 @@ class LatticeDomain {
   bool is_interior(BrickKey key, int depth) const;
 
  private:
-  bool contains_root(const LatticeCoord& root) const;
+  void tabulate_roots();
+  std::size_t table_index(const LatticeCoord& root) const {
+    return static_cast<std::size_t>(root[0] - low_[0]) +
+           size_[0] * (static_cast<std::size_t>(root[1] - low_[1]) +
+                       std::size_t{size_[1]} * static_cast<std::size_t>(root[2] - low_[2]));
+  }
+  bool contains_root(const LatticeCoord& root) const {
+    for (int a = 0; a < 3; ++a)
+      if (static_cast<std::uint32_t>(root[a] - low_[a]) >= size_[a]) return false;
+    return is_root_.empty() ? is_listed(root) : is_root_[table_index(root)] != 0;
+  }
+  bool is_listed(const LatticeCoord& root) const;
 
   LatticeCoord shift_ = {0, 0, 0};
-  std::vector<LatticeCoord> roots_;  ///< shifted, sorted by root_less
+  std::vector<LatticeCoord> roots_;                ///< shifted, sorted by root_less
+  LatticeCoord low_ = {0, 0, 0};                   ///< lowest coordinates of the roots
+  std::array<std::uint32_t, 3> size_ = {0, 0, 0};  ///< of the roots' box
+  std::vector<char> is_root_;  ///< per cube of that box; empty when there are too many
 };
 
 }  // namespace hexwright

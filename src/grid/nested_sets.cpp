@@ -115,7 +115,7 @@ class LeafWriter {
                                [](const Brick& b, BrickKey key) { return b.key < key; });
     std::size_t total = 0;
     for (; it != bricks.end() && it->key < first + (BrickKey{1} << brick_rise); ++it)
-      total += static_cast<std::size_t>(std::popcount(it->bits));
+      total += static_cast<std::size_t>(count_bits(it->bits));
     return total;
   }
 
