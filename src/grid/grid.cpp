@@ -48,7 +48,7 @@ TilingPosition position_of(const std::vector<LatticeCoord>& roots, const Lattice
   const LatticeCoord root = {corner[0] >> finest_level, corner[1] >> finest_level,
                              corner[2] >> finest_level};
   const auto found = std::lower_bound(roots.begin(), roots.end(), root, root_less);
-  if (found == roots.end() || *found != root) return {kNoRoot, 0};
+  if (found == roots.end() || !is_same_coord(*found, root)) return {kNoRoot, 0};
   const std::int32_t mask = (1 << finest_level) - 1;
   return {static_cast<std::size_t>(found - roots.begin()),
           morton_encode(corner[0] & mask, corner[1] & mask, corner[2] & mask)};
@@ -139,8 +139,15 @@ std::optional<Issue> find_tiling_problem(const Grid& grid) {
       [&](std::size_t begin, std::size_t end) { return find_chunk_problem(grid, begin, end); },
       [](const auto& a, const auto& b) { return a ? a : b; }, kCellsPerChunk);
   if (first) return first;
-  int deepest = 0;
-  for (const GridCell& cell : grid.cells) deepest = std::max<int>(deepest, cell.level);
+  const int deepest = parallel_reduce(
+      grid.num_cells(), 0,
+      [&](std::size_t begin, std::size_t end) {
+        int level = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          level = std::max<int>(level, grid.cells.raw()[i].level);
+        return level;
+      },
+      [](int a, int b) { return std::max(a, b); }, kCellsPerChunk);
   if (deepest != grid.finest_level)
     return Issue{fmt::format("finest_level is {} but the deepest cell has level {}",
                              grid.finest_level, deepest)};

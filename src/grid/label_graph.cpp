@@ -25,9 +25,8 @@ std::vector<std::vector<std::uint32_t>> find_groups(const LabelGraph& graph) {
 }
 
 LabelGraph subgraph(const LabelGraph& graph, const std::vector<std::uint32_t>& group,
-                    std::vector<std::uint32_t>& local) {
+                    const std::vector<std::uint32_t>& local) {
   LabelGraph out;
-  for (std::uint32_t i = 0; i < group.size(); ++i) local[group[i]] = i;
   for (const std::uint32_t node : group) {
     out.costs.push_back(graph.costs[node]);
     out.allowed.push_back(graph.allowed[node]);

@@ -60,10 +60,10 @@ std::vector<PrunedLabel> reduce_graph(LabelGraph& graph);
 /// Connected groups of at least two nodes, each sorted.
 std::vector<std::vector<std::uint32_t>> find_groups(const LabelGraph& graph);
 
-/// The group as a graph of its own, numbered in the group's order. `local`: scratch, one entry per
-/// node of the graph.
+/// The group as a graph of its own, numbered in the group's order. `local`: each node's place in
+/// its group.
 LabelGraph subgraph(const LabelGraph& graph, const std::vector<std::uint32_t>& group,
-                    std::vector<std::uint32_t>& local);
+                    const std::vector<std::uint32_t>& local);
 
 /// A cost that no labelling reaches: of a graph whose nodes have no compatible labels.
 inline constexpr std::int64_t kInfeasibleCost = std::numeric_limits<std::int64_t>::max() / 4;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hexwright/base/parallel.h"
+
 #include "grid/label_graph.h"
 
 namespace hexwright {
@@ -69,6 +71,40 @@ SearchResult search_group(const LabelGraph& graph, const Labelling& start,
   return result;
 }
 
+/// Every group by itself: by elimination where that is cheap, else by search from a labelling that
+/// `make_start` gives for the whole graph.
+template <class MakeStart>
+std::vector<SearchResult> solve_groups(const LabelGraph& graph,
+                                       const std::vector<std::vector<std::uint32_t>>& groups,
+                                       MakeStart&& make_start, const LabelLimits& limits) {
+  std::vector<std::uint32_t> local(graph.num_nodes());
+  for (const auto& group : groups)
+    for (std::uint32_t i = 0; i < group.size(); ++i) local[group[i]] = i;
+  std::vector<SearchResult> results(groups.size());
+  std::vector<char> is_open(groups.size(), 0);
+  constexpr std::size_t kGroupsPerTask = 16;
+  parallel_for(
+      groups.size(),
+      [&](std::size_t g) {
+        const auto exact = solve_by_elimination(subgraph(graph, groups[g], local),
+                                                std::min(limits.table_entries, kSmallTable));
+        is_open[g] = !exact;
+        if (exact) results[g] = {*exact, true, exact->cost};
+      },
+      kGroupsPerTask);
+  if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return results;
+  const Labelling start = make_start();  // rarely needed
+  parallel_for(
+      groups.size(),
+      [&](std::size_t g) {
+        if (!is_open[g]) return;
+        const LabelGraph alone = subgraph(graph, groups[g], local);
+        results[g] = search_group(alone, restricted(start, alone, groups[g]), limits);
+      },
+      1);
+  return results;
+}
+
 }  // namespace
 
 LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
@@ -86,18 +122,13 @@ LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
     out.labels[u] = static_cast<std::uint8_t>(graph.cheapest_label(u));
     out.lower_bound += costs[u][out.labels[u]];
   }
-  std::vector<std::uint32_t> local(costs.size());
-  std::optional<Labelling> start;  // rarely needed
-  for (const auto& group : find_groups(graph)) {
-    const LabelGraph alone = subgraph(graph, group, local);
-    SearchResult result;
-    if (auto exact = solve_by_elimination(alone, std::min(limits.table_entries, kSmallTable))) {
-      result = {*exact, true, exact->cost};
-    } else {
-      if (!start) start = feasible_start(make_graph(costs, conflicts), pruned);
-      result = search_group(alone, restricted(*start, alone, group), limits);
-    }
-    for (std::size_t i = 0; i < group.size(); ++i) out.labels[group[i]] = result.best.labels[i];
+  const auto groups = find_groups(graph);
+  const auto results = solve_groups(
+      graph, groups, [&] { return feasible_start(make_graph(costs, conflicts), pruned); }, limits);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const SearchResult& result = results[g];
+    for (std::size_t i = 0; i < groups[g].size(); ++i)
+      out.labels[groups[g][i]] = result.best.labels[i];
     out.lower_bound += result.lower_bound / kLeafCost;
     out.is_optimal = out.is_optimal && result.is_optimal;
   }

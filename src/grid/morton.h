@@ -47,6 +47,11 @@ constexpr LatticeCoord morton_decode(MortonKey key) {
           static_cast<std::int32_t>(gather_bits(key >> 2))};
 }
 
+/// As operator==, which compilers turn into a call of memcmp.
+constexpr bool is_same_coord(const LatticeCoord& a, const LatticeCoord& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /// Order of root cubes in Grid::roots: by z, then y, then x.
 constexpr bool root_less(const LatticeCoord& a, const LatticeCoord& b) {
   return a[2] != b[2] ? a[2] < b[2] : a[1] != b[1] ? a[1] < b[1] : a[0] < b[0];

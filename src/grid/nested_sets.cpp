@@ -8,6 +8,8 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "grid/prefault.h"
+
 namespace hexwright {
 namespace {
 
@@ -27,7 +29,7 @@ class AncestorStream {
     for (int depth = leaf.level - 1; depth >= 0; --depth) {
       LatticeCoord node;
       for (int a = 0; a < 3; ++a) node[a] = (leaf.corner[a] + shift_[a]) >> (finest_level_ - depth);
-      if (node == last_[depth]) return;
+      if (is_same_coord(node, last_[depth])) return;
       last_[depth] = node;
       const BrickKey key = brick_of_node(node);
       auto& bricks = bricks_[depth];
@@ -188,6 +190,8 @@ Grid grid_of(const NestedSets& sets, const Grid& like, const LatticeDomain& doma
     tasks[i].first_leaf = total;
     total += sizes[i];
   }
+  out.cells.reserve(total);
+  prefault_pages(out.cells.raw().data(), total * sizeof(GridCell));
   out.cells.resize(total);
   parallel_for(
       tasks.size(),
