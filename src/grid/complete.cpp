@@ -56,12 +56,34 @@ std::size_t count_nodes(const NestedSets& sets) {
   return total;
 }
 
+NestedSets choose_blocks(const NestedSets& input, const CompleteOptions& options,
+                         const LatticeDomain& domain, const Context& context,
+                         CompleteReport& report) {
+  const BlockSweep sweep(input, options.balance, domain);
+  return options.improve ? Descent(sweep, context).run(report)
+                         : sweep_blocks(sweep, context, report);
+}
+
+/// As choose_blocks(), in the pose that goes with the grid's shape, because ties are broken by
+/// position.
+NestedSets choose_blocks_posed(const NestedSets& input, const CompleteOptions& options,
+                               const LatticeDomain& domain, const Context& context,
+                               CompleteReport& report) {
+  const Pose pose = choose_pose(input, domain);
+  if (is_identity(pose)) return choose_blocks(input, options, domain, context, report);
+  const int num_depths = static_cast<int>(input.size());
+  const PosedDomain posed(domain, pose, num_depths);
+  NestedSets sets;
+  for (int d = 0; d < num_depths; ++d) sets.push_back(posed.to_posed(input[d], d));
+  sets = choose_blocks(sets, options, posed.domain(), context, report);
+  for (int d = 0; d < num_depths; ++d) sets[d] = posed.to_original(sets[d], d);
+  return sets;
+}
+
 NestedSets pair_blocks(const NestedSets& input, const CompleteOptions& options,
                        const LatticeDomain& domain, const Context& context,
                        CompleteReport& report) {
-  const BlockSweep sweep(input, options.balance, domain);
-  NestedSets out =
-      options.improve ? Descent(sweep, context).run(report) : sweep_blocks(sweep, context, report);
+  NestedSets out = choose_blocks_posed(input, options, domain, context, report);
   // Cheapest depth by depth need not be cheapest in all: sibling octets are blocks too.
   NestedSets octets = pair_octets(input, options.balance, domain);
   return count_nodes(octets) < count_nodes(out) ? std::move(octets) : std::move(out);

@@ -1,15 +1,22 @@
 // The 48 symmetries of the cube, and the one in which a grid is completed.
+//
+// Images are told apart by hashes that are sums over nodes of a product of three random functions,
+// one per axis of the image. Each function is split into its even and its odd part about the
+// domain's centre, so that 48 sums over the nodes as they are give the hashes of all 48 images.
 #include "grid/pose.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "hexwright/base/parallel.h"
 
 #include "grid/hash.h"
 
 namespace hexwright {
 namespace {
 
-// Bricks that choose_pose may transform before it stops looking deeper.
-constexpr std::size_t kMaxWork = 200'000;
+constexpr std::size_t kBricksPerChunk = 1024;
 
 /// Image of a root, before the move to zero.
 LatticeCoord root_image(const LatticeCoord& root, const Pose& pose) {
@@ -34,26 +41,151 @@ std::vector<LatticeCoord> root_images(const std::vector<LatticeCoord>& roots, co
   return out;
 }
 
-/// Applies `image` to every node.
-template <class Image>
-BrickSet map_nodes(const BrickSet& nodes, Image&& image) {
+constexpr int kNumPoses = 48, kNumSigns = 8;
+constexpr std::array<std::array<int, 3>, 6> kAxes = {
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+
+/// The word with two of its axes exchanged.
+BrickBits swap_axes(BrickBits w, int a, int b) {
+  BrickBits out = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const BrickBits part = w & slice(a, i) & slice(b, j);
+      const int shift = (j - i) * (kAxisStep[a] - kAxisStep[b]);
+      out |= shift >= 0 ? part << shift : part >> -shift;
+    }
+  return out;
+}
+
+BrickBits flip_axis(BrickBits w, int axis) {
+  BrickBits out = 0;
+  for (int i = 0; i < 4; ++i) out |= move_slice(w, axis, i, 3 - i);
+  return out;
+}
+
+/// A symmetry of the lattice: mirrored axes first, then coordinate a becomes that of axis[a], then
+/// a move.
+struct LatticeMap {
+  std::array<int, 3> axis;
+  std::array<bool, 3> flip;  ///< by axis of the original
+  LatticeCoord move;         ///< of the image, in nodes
+
+  LatticeCoord operator()(const LatticeCoord& node) const {
+    LatticeCoord out;
+    for (int a = 0; a < 3; ++a) {
+      const std::int32_t x = node[axis[a]];
+      out[a] = (flip[axis[a]] ? -1 - x : x) + move[a];
+    }
+    return out;
+  }
+  /// Inside a brick, when the move is by whole bricks.
+  BrickBits operator()(BrickBits w) const {
+    for (int a = 0; a < 3; ++a)
+      if (flip[a]) w = flip_axis(w, a);
+    std::array<int, 3> at = {0, 1, 2};  // which original axis lies where now
+    for (int a = 0; a < 3; ++a) {
+      const int from = static_cast<int>(std::find(at.begin(), at.end(), axis[a]) - at.begin());
+      if (from == a) continue;
+      w = swap_axes(w, a, from);
+      std::swap(at[a], at[from]);
+    }
+    return w;
+  }
+};
+
+/// Whole bricks at once where the map keeps bricks together.
+BrickSet map_bricks(const BrickSet& nodes, const LatticeMap& map) {
+  std::vector<Brick> bricks(nodes.num_bricks());
+  parallel_for(
+      bricks.size(),
+      [&](std::size_t i) {
+        const Brick& b = nodes.bricks()[i];
+        bricks[i] = {brick_of_node(map(node_of_bit(b.key, 0))), map(b.bits)};
+      },
+      kBricksPerChunk);
+  return BrickSet(std::move(bricks));
+}
+
+BrickSet map_nodes(const BrickSet& nodes, const LatticeMap& map) {
   std::vector<Brick> bricks;
-  bricks.reserve(nodes.num_bricks());
   for (const Brick& brick : nodes.bricks())
     for (BrickBits rest = brick.bits; rest != 0; rest &= rest - 1) {
-      const LatticeCoord node = image(node_of_bit(brick.key, std::countr_zero(rest)));
-      const BrickKey key = brick_of_node(node);
-      if (bricks.empty() || bricks.back().key != key) bricks.push_back({key, 0});
-      bricks.back().bits |= BrickBits{1} << bit_of_node(node);
+      const LatticeCoord node = map(node_of_bit(brick.key, std::countr_zero(rest)));
+      bricks.push_back({brick_of_node(node), BrickBits{1} << bit_of_node(node)});
     }
   return BrickSet(std::move(bricks));
+}
+
+BrickSet map_set(const BrickSet& nodes, const LatticeMap& map) {
+  for (const std::int32_t x : map.move)
+    if (x % 4 != 0) return map_nodes(nodes, map);
+  return map_bricks(nodes, map);
+}
+
+/// Sums over nodes, by order of axes and by which of the three functions are odd parts.
+using PoseSums = std::array<std::array<std::uint64_t, kNumSigns>, kAxes.size()>;
+
+/// Even (0) and odd (1) part of the function of an image's axis, by twice the distance of a node's
+/// middle from the centre.
+std::uint64_t part_of_function(int image_axis, int odd, std::int64_t twice_distance) {
+  if (odd && twice_distance == 0) return 0;
+  const auto size = static_cast<std::uint64_t>(std::abs(twice_distance));
+  const std::uint64_t value = mix_bits(6 * size + static_cast<std::uint64_t>(2 * image_axis + odd));
+  return odd && twice_distance < 0 ? ~value + 1 : value;
+}
+
+void add_node(const LatticeCoord& node, const LatticeCoord& twice_centre, PoseSums& sums) {
+  std::array<std::array<std::array<std::uint64_t, 2>, 3>, 3> value;  // image axis, own axis, odd
+  for (int image = 0; image < 3; ++image)
+    for (int own = 0; own < 3; ++own)
+      for (int odd = 0; odd < 2; ++odd)
+        value[image][own][odd] =
+            part_of_function(image, odd, 2 * std::int64_t{node[own]} + 1 - twice_centre[own]);
+  for (std::size_t k = 0; k < kAxes.size(); ++k)
+    for (int s = 0; s < kNumSigns; ++s)
+      sums[k][s] += value[0][kAxes[k][0]][s & 1] * value[1][kAxes[k][1]][s >> 1 & 1] *
+                    value[2][kAxes[k][2]][s >> 2];
+}
+
+PoseSums combined(PoseSums a, const PoseSums& b) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (int s = 0; s < kNumSigns; ++s) a[k][s] += b[k][s];
+  return a;
+}
+
+/// Hash of the image in a pose: mirroring an axis changes the sign of its odd part.
+std::uint64_t pose_hash(const PoseSums& sums, int pose) {
+  std::uint64_t hash = 0;
+  for (int s = 0; s < kNumSigns; ++s) {
+    const std::uint64_t sum = sums[static_cast<std::size_t>(pose / 8)][s];
+    hash += std::popcount(static_cast<unsigned>(s & pose & 7)) & 1 ? ~sum + 1 : sum;
+  }
+  return hash;
+}
+
+PoseSums sums_of(const BrickSet& set, const LatticeCoord& twice_centre) {
+  return parallel_reduce(
+      set.num_bricks(), PoseSums{},
+      [&](std::size_t begin, std::size_t end) {
+        PoseSums sums{};
+        for (const Brick& b : set.bricks().subspan(begin, end - begin))
+          for (BrickBits rest = b.bits; rest != 0; rest &= rest - 1)
+            add_node(node_of_bit(b.key, std::countr_zero(rest)), twice_centre, sums);
+        return sums;
+      },
+      combined, kBricksPerChunk);
+}
+
+/// Keeps the candidates of least hash.
+void keep_first(const PoseSums& sums, std::vector<int>& candidates) {
+  std::uint64_t least = ~std::uint64_t{0};
+  for (const int n : candidates) least = std::min(least, pose_hash(sums, n));
+  std::erase_if(candidates, [&](int n) { return pose_hash(sums, n) != least; });
 }
 
 }  // namespace
 
 Pose make_pose(int number) {
-  constexpr std::array<std::array<int, 3>, 6> kAxes = {
-      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   Pose pose;
   pose.axis = kAxes[number / 8];
   for (int a = 0; a < 3; ++a) pose.flip[a] = number >> a & 1;
@@ -66,43 +198,44 @@ PosedDomain::PosedDomain(const LatticeDomain& original, const Pose& pose, int fi
 }
 
 BrickSet PosedDomain::to_posed(const BrickSet& nodes, int depth) const {
-  return map_nodes(nodes, [&](const LatticeCoord& node) {
-    LatticeCoord out = root_image(node, pose_);
-    for (int a = 0; a < 3; ++a) out[a] += offset_[a] * (1 << depth);
-    return out;
-  });
+  LatticeMap map{pose_.axis, {}, {}};
+  for (int a = 0; a < 3; ++a) {
+    map.flip[pose_.axis[a]] = pose_.flip[a];
+    map.move[a] = offset_[a] * (1 << depth);
+  }
+  return map_set(nodes, map);
 }
 
 BrickSet PosedDomain::to_original(const BrickSet& nodes, int depth) const {
-  return map_nodes(nodes, [&](const LatticeCoord& node) {
-    LatticeCoord out;
-    for (int a = 0; a < 3; ++a) {
-      const std::int32_t x = node[a] - offset_[a] * (1 << depth);
-      out[pose_.axis[a]] = pose_.flip[a] ? -1 - x : x;
-    }
-    return out;
-  });
+  LatticeMap map{{}, pose_.flip, {}};
+  for (int a = 0; a < 3; ++a) {
+    map.axis[pose_.axis[a]] = a;
+    // x = +-(y - move), and -1 - (y - move) = (-1 - y) + move.
+    map.move[pose_.axis[a]] = (pose_.flip[a] ? 1 : -1) * offset_[a] * (1 << depth);
+  }
+  return map_set(nodes, map);
 }
 
-Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain, int finest_level) {
-  std::vector<int> candidates(48);
-  for (int n = 0; n < 48; ++n) candidates[n] = n;
-  std::size_t work = 0;
-  for (int d = 0; d < static_cast<int>(sets.size()) && candidates.size() > 1; ++d) {
-    work += candidates.size() * sets[d].num_bricks();
-    if (work > kMaxWork) break;
-    std::vector<std::uint64_t> hashes;
-    for (const int n : candidates) {
-      const PosedDomain posed(domain, make_pose(n), finest_level);
-      hashes.push_back(
-          hash_of(posed.to_posed(sets[d], d), hash_of(posed.domain().shifted_roots())));
+Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain) {
+  LatticeCoord low = domain.shifted_roots().front(), high = low;
+  for (const LatticeCoord& root : domain.shifted_roots())
+    for (int a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], root[a]);
+      high[a] = std::max(high[a], root[a]);
     }
-    const std::uint64_t least = *std::min_element(hashes.begin(), hashes.end());
-    std::vector<int> kept;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (hashes[i] == least) kept.push_back(candidates[i]);
-    candidates = std::move(kept);
-  }
+  std::vector<int> candidates(kNumPoses);
+  std::iota(candidates.begin(), candidates.end(), 0);
+  const auto twice_centre = [&](int depth) {
+    LatticeCoord out;
+    for (int a = 0; a < 3; ++a) out[a] = (low[a] + high[a] + 1) * (1 << depth);
+    return out;
+  };
+  PoseSums root_sums{};
+  for (const LatticeCoord& root : domain.shifted_roots())
+    add_node(root, twice_centre(0), root_sums);
+  keep_first(root_sums, candidates);
+  for (int d = 0; d < static_cast<int>(sets.size()) && candidates.size() > 1; ++d)
+    keep_first(sums_of(sets[static_cast<std::size_t>(d)], twice_centre(d)), candidates);
   return make_pose(candidates.front());
 }
 

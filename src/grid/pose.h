@@ -36,8 +36,12 @@ class PosedDomain {
   LatticeDomain domain_;
 };
 
-/// The pose whose image of the sets comes first in an order of images. Among very symmetric grids
-/// of more than about half a million cells the choice may follow the coarse depths alone.
-Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain, int finest_level);
+/// The pose whose image of the sets comes first in an order of images; the identity when that is
+/// among the first. Time linear in the bricks of the coarse depths that tell the poses apart: of
+/// all depths for symmetric grids.
+Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain);
+inline bool is_identity(const Pose& pose) {
+  return pose.axis == std::array{0, 1, 2} && pose.flip == std::array{false, false, false};
+}
 
 }  // namespace hexwright
