@@ -2,6 +2,7 @@
 //
 // Arguments of every case: shape (0 sphere, 1 gyroid, 2 random points), depth, threads. Counters:
 // input leaves per second, leaves in and out, peak memory of the process per output leaf.
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/grid/complete.h"
+#include "hexwright/grid/refine.h"
 
 #include "grid_shapes.h"
 
@@ -73,6 +75,28 @@ void octree_weak(benchmark::State& state) { run(state, {Balance::Weak, Pairing::
 void blocks_sweep(benchmark::State& state) { run(state, {Balance::Weak, Pairing::Blocks, false}); }
 void blocks_descent(benchmark::State& state) { run(state, {Balance::Weak, Pairing::Blocks, true}); }
 
+/// Building the octree of a sphere from a size function, to set beside pairing it.
+void build_octree(benchmark::State& state) {
+  const int depth = static_cast<int>(state.range(1));
+  const ThreadLimit limit(static_cast<int>(state.range(2)));
+  const auto meets_sphere = [](const Box3& box, int level) {
+    const double h = box.extent().x;
+    return level < 2 || std::abs(distance(box.center(), {0.5, 0.5, 0.5}) - 0.41) < 0.87 * h;
+  };
+  std::size_t num_cells = 0;
+  for (auto _ : state)
+    num_cells = refine_where({{0, 0, 0}, 1}, {{0, 0, 0}}, depth, meets_sphere).num_cells();
+  state.counters["leaves_out"] = static_cast<double>(num_cells);
+  state.counters["leaves_per_s"] = benchmark::Counter(
+      static_cast<double>(num_cells), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void sphere_sizes(benchmark::internal::Benchmark* b) {
+  for (const int depth : {5, 7, 9})
+    for (const int threads : {1, 2}) b->Args({0, depth, threads});
+  b->ArgNames({"shape", "depth", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
 void sizes(benchmark::internal::Benchmark* b) {
   for (int shape = 0; shape < 3; ++shape)
     for (const int depth : {5, 7, 9})
@@ -85,6 +109,7 @@ void huge(benchmark::internal::Benchmark* b) {
   b->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
+BENCHMARK(build_octree)->Apply(sphere_sizes);
 BENCHMARK(balance_strong)->Apply(sizes);
 BENCHMARK(octree_weak)->Apply(sizes);
 BENCHMARK(blocks_sweep)->Apply(sizes);
