@@ -18,6 +18,8 @@ namespace {
 constexpr std::int32_t kCap = 4095;
 constexpr std::int16_t kExcluded = 16383, kLeastExcluded = 12000;
 
+constexpr std::uint32_t kMaxDegree = 1 << 15;
+
 using Row = std::array<std::int16_t, kNumParities>;
 
 /// kExcluded where the mask has a bit.
@@ -62,6 +64,9 @@ void LabelMessages::link_twins() {
       edges_[h].twin = next[edges_[h].other]++;
       num_lower_[u] += edges_[h].other < u;
     }
+  // What a node gathers must fit its type: with more neighbours only the plain bound is given.
+  for (std::uint32_t u = 0; u < num_lower_.size(); ++u)
+    is_saturated_ = is_saturated_ || first_edge_[u + 1] - first_edge_[u] > kMaxDegree;
 }
 
 void LabelMessages::scale_costs(const LabelGraph& graph) {
@@ -160,7 +165,10 @@ LabelMessages::Row LabelMessages::settle(std::uint32_t node, std::int32_t num_pa
   bound_ += least;
   Row part{};
   for (std::size_t p = 0; p < kNumParities; ++p) {
-    if (!(allowed_[node] >> p & 1)) continue;
+    if (!(allowed_[node] >> p & 1)) {
+      cost[p] = 0;  // or it would grow with every visit
+      continue;
+    }
     cost[p] -= least;
     least_total_[node][p] = std::max(least_total_[node][p], bound_ + cost[p]);
     cost[p] = std::min(cost[p], kCap);
