@@ -5,6 +5,7 @@
 
 #include "hexwright/version.h"
 
+#include "bench/results.h"
 #include "options.h"
 
 namespace hexwright::cli {
@@ -56,12 +57,12 @@ std::vector<std::string> to_arguments(const BenchOptions& options) {
   return arguments;
 }
 
-std::string fingerprint(const BenchOptions& options) {
+std::string fingerprint(const BenchOptions& options, const std::filesystem::path& program) {
   EvaluateOptions evaluate = options.evaluate;
   evaluate.run_dual = !options.no_dual;
   evaluate.run_mesh = !options.no_mesh;
-  return fmt::format("hexwright {} {} pictures {}", HEXWRIGHT_VERSION,
-                     evaluate_options_to_json(evaluate),
+  return fmt::format("hexwright {} program {} {} pictures {}", HEXWRIGHT_VERSION,
+                     file_hash(program), evaluate_options_to_json(evaluate),
                      options.no_pictures ? 0 : options.picture_width);
 }
 

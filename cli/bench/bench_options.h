@@ -1,6 +1,7 @@
 // What every worker of an evaluation must know, and how the driver tells it.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ void add_bench_options(CLI::App& cmd, BenchOptions& options);
 /// The options as arguments that add_bench_options reads back.
 std::vector<std::string> to_arguments(const BenchOptions& options);
 
-/// What results depend on: the version and the options, as text.
-std::string fingerprint(const BenchOptions& options);
+/// What results depend on, as text: the version, the hash of the program's file (two builds of one
+/// version may differ) and the options.
+std::string fingerprint(const BenchOptions& options, const std::filesystem::path& program);
 
 }  // namespace hexwright::cli

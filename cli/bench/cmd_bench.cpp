@@ -79,8 +79,9 @@ std::vector<Json> write_results(const BenchCommand& cmd, const std::vector<Bench
   return records;
 }
 
-std::vector<BenchModel> choose_models(const BenchCommand& cmd) {
-  std::vector<BenchModel> models = find_models(cmd.models, fingerprint(cmd.options));
+std::vector<BenchModel> choose_models(const BenchCommand& cmd, const Program& program) {
+  std::vector<BenchModel> models =
+      find_models(cmd.models, fingerprint(cmd.options, own_executable(program.executable)));
   if (!cmd.only.empty())
     std::erase_if(models, [&](const BenchModel& model) {
       return std::none_of(cmd.only.begin(), cmd.only.end(), [&](const std::string& text) {
@@ -95,7 +96,7 @@ std::vector<BenchModel> choose_models(const BenchCommand& cmd) {
 
 void evaluate_folder(const BenchCommand& cmd, Program& program) {
   const Context context = program.console.start();
-  const std::vector<BenchModel> models = choose_models(cmd);
+  const std::vector<BenchModel> models = choose_models(cmd, program);
   std::error_code error;
   fs::create_directories(cmd.output, error);
   if (error) throw Error(ErrorCode::CannotOpen, "cannot be made: " + error.message(), cmd.output);

@@ -34,6 +34,10 @@ std::uint64_t hash(std::string_view text, std::uint64_t state = 0xcbf29ce4842223
 
 }  // namespace
 
+std::string file_hash(const fs::path& file) {
+  return fmt::format("{:016x}", hash(read_text(file)));
+}
+
 std::vector<BenchModel> find_models(const fs::path& folder, const std::string& fingerprint) {
   if (!fs::is_directory(folder))
     throw Error(ErrorCode::CannotOpen, "is not a folder of models", folder.string());

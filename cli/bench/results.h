@@ -27,6 +27,9 @@ struct BenchModel {
 std::vector<BenchModel> find_models(const std::filesystem::path& folder,
                                     const std::string& fingerprint);
 
+/// Of the file's content, 16 hexadecimal digits. Throws Error{CannotOpen}.
+std::string file_hash(const std::filesystem::path& file);
+
 std::filesystem::path record_file(const std::filesystem::path& out, const std::string& name);
 std::filesystem::path picture_file(const std::filesystem::path& out, const std::string& name,
                                    const std::string& part);

@@ -104,11 +104,13 @@ function drawDiagonal(id, key, points, xTitle, yTitle, title, show) {
     options: {scales: {x: axis(xTitle, {min: 0, max: top}), y: axis(yTitle, {min: 0, max: top})}, plugins: {...heading(title), ...nameTooltip(show)}}});
 }
 
+// Every method against the one it is to improve on.
 function drawFigure12() {
-  for (const [id, key] of [['fig12strong', 'octree_strong'], ['fig12weak', 'octree_weak']]) {
-    const points = compared.map(m => ({x: m.methods[key].relative_growth, y: m.methods.blocks.relative_growth, name: m.model}));
-    drawDiagonal(id, 'blocks', points, titles[key] + ', relative growth', 'blocks, relative growth', `Blocks against ${titles[key]}`,
-      p => `${percent(p.x)} ${titles[key]}, ${percent(p.y)} blocks`);
+  for (const [id, across, up] of [['fig12strong', 'octree_strong', 'blocks'], ['fig12weak', 'octree_weak', 'blocks'],
+    ['fig12octree', 'octree_strong', 'octree_weak'], ['fig12sheets', 'blocks', 'sheets']]) {
+    const points = compared.map(m => ({x: m.methods[across].relative_growth, y: m.methods[up].relative_growth, name: m.model}));
+    drawDiagonal(id, up, points, titles[across] + ', relative growth', titles[up] + ', relative growth', `${titles[up]} against ${titles[across]}`,
+      p => `${percent(p.x)} ${titles[across]}, ${percent(p.y)} ${titles[up]}`);
   }
 }
 
@@ -171,6 +173,8 @@ function showAgreements() {
   const text = summary.agree.length === 0 ? 'None of these models: block pairing needs fewer cells on every one (the paper: 8 of 202).' :
     `${summary.agree.length} of ${summary.compared} (the paper: 8 of 202): ${summary.agree.join(', ')}.`;
   document.getElementById('agree').textContent = text;
+  document.getElementById('agreeing').append(...models.filter(m => summary.agree.includes(m.model)).map(m =>
+    element('div', {className: 'agreeing'}, element('b', {textContent: `${m.model}, ${count(m.input.cells)} cells`}), makeStrip(m))));
 }
 
 // Models: one body of two rows each, numbers and pictures.
