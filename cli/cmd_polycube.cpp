@@ -25,7 +25,8 @@ namespace {
 
 struct PolycubeCommand {
   std::string object, polycube, output, report, picture, grid;
-  double max_edge = 0;                       // share of the diagonal
+  double max_edge = 0;  // share of the diagonal
+  bool ignores_distance = false;
   std::vector<std::array<double, 7>> boxes;  // low corner, high corner, edge length; world units
   PolycubeOptions options;
 };
@@ -110,6 +111,7 @@ void run(const PolycubeCommand& cmd, Program& program) {
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
   PolycubeOptions options = cmd.options;
   options.max_edge = make_size_field(cmd, object);
+  if (cmd.ignores_distance) options.max_surface_error = 0;
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
   JudgeOptions judge_options;
@@ -136,6 +138,8 @@ void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
          [&cmd](const std::vector<std::array<double, 7>>& boxes) { cmd.boxes = boxes; },
          "Longest edge inside a box of the object: x0 y0 z0 x1 y1 z1 edge; may be repeated")
       ->type_name("BOX");
+  sub.add_flag("--ignore-distance", cmd.ignores_distance,
+               "Split by stretch and size alone, wherever the surface ends up");
 }
 
 }  // namespace
@@ -156,7 +160,7 @@ void add_polycube_command(CLI::App& app, Program& program) {
          "--max-surface-error",
          [cmd](const std::string& text) { cmd->options.max_surface_error = parse_share(text); },
          "Cells are split where the mesh would miss the surface by more than this share of the "
-         "diagonal, and again where it does; 0 = off")
+         "diagonal, and again where it does")
       ->default_str("0.3%");
   add_size_options(*sub, *cmd);
   sub->add_option("--rounds", cmd->options.max_rounds,

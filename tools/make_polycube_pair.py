@@ -4,7 +4,7 @@
 Usage: make_polycube_pair.py OUT_STEM [--refine N]
 
 Writes OUT_STEM_object.mesh and OUT_STEM_polycube.mesh (MEDIT). The polycube is a 4 x 4 x 2 base with a post of 1 x 1 x 1.5 on
-it. In the object the post has become a head three times as wide and four times as high, with five fins around it: one unit of
+it. In the object the post has become a head three times as wide and four times as high, with four fins around it: one unit of
 the polycube stands for three to five units there, so that a regular grid of the polycube is coarsest where the object is finest.
 --refine N cuts every cell of the tensor grid N times per axis (the number of tets grows with N cubed); the shape converges.
 
@@ -16,7 +16,7 @@ import math
 
 BASE = 2.0   # height of the base
 POST = 1.5   # height of the post in the polycube
-FINS = 5
+FINS = 4
 
 
 def lines(stops, refine):
@@ -30,10 +30,10 @@ def lines(stops, refine):
 
 def width(t):
     """Half the width of the head at height t in [0, 1] of the post: a neck, then fins."""
-    neck = min(1.0, t / 0.2)
-    core = 0.5 + 0.8 * neck * neck * (3 - 2 * neck)
-    wave = 0.5 - 0.5 * math.cos(2 * math.pi * FINS * max(0.0, t - 0.2) / 0.8)
-    return core + 0.45 * wave
+    neck = min(1.0, t / 0.4)
+    core = 0.5 + 0.7 * neck * neck * (3 - 2 * neck)
+    wave = 0.5 - 0.5 * math.cos(2 * math.pi * FINS * max(0.0, t - 0.3) / 0.7)
+    return core + 0.3 * wave
 
 
 def carry(p):

@@ -1,12 +1,14 @@
 #include "polycube/merge_charts.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <set>
 
 namespace hexwright::polycube {
 namespace {
 
 constexpr double kLeastSquares = 0.25;
+constexpr double kCoplanar = 0.1;  // share of the spacing
 
 std::vector<double> chart_areas(const Lattice& lattice) {
   std::vector<double> area(lattice.charts.size(), 0);
@@ -19,20 +21,51 @@ std::vector<double> chart_areas(const Lattice& lattice) {
   return area;
 }
 
-// The chart across most edges of `chart`, -1 when it has no neighbour; the lowest among equals.
-int longest_neighbor(const Lattice& lattice, int chart,
+// The neighbouring chart whose plane the facets of `chart` stray least from, -1 when it has no
+// neighbour; the lowest among equals.
+int nearest_neighbor(const Lattice& lattice, int chart,
                      const IdVector<TriId, std::array<TriId, 3>>& neighbor) {
-  std::map<int, int> num_edges;
+  std::set<int> candidates;
   for (TriId t : lattice.facets.ids()) {
     if (lattice.facet_to_chart[t] != chart) continue;
     for (TriId other : neighbor[t])
       if (other.is_valid() && lattice.facet_to_chart[other] != chart)
-        ++num_edges[lattice.facet_to_chart[other]];
+        candidates.insert(lattice.facet_to_chart[other]);
   }
   int best = -1;
-  for (const auto& [other, count] : num_edges)
-    if (best < 0 || count > num_edges[best]) best = other;
+  double least = std::numeric_limits<double>::infinity();
+  for (int candidate : candidates) {
+    const Chart& plane = lattice.charts[static_cast<std::size_t>(candidate)];
+    double farthest = 0;
+    for (TriId t : lattice.facets.ids())
+      if (lattice.facet_to_chart[t] == chart)
+        for (VertId v : lattice.facets[t])
+          farthest = std::max(farthest,
+                              std::abs(lattice.tets.positions[v][plane.axis] - plane.coordinate));
+    if (farthest >= least) continue;
+    least = farthest;
+    best = candidate;
+  }
   return best;
+}
+
+// Charts of one direction that have become neighbours on nearly one plane are one.
+void join_coplanar(Lattice& lattice, const IdVector<TriId, std::array<TriId, 3>>& neighbor,
+                   double spacing) {
+  const auto are_coplanar = [&](int a, int b) {
+    const Chart &x = lattice.charts[static_cast<std::size_t>(a)],
+                &y = lattice.charts[static_cast<std::size_t>(b)];
+    return x.axis == y.axis && x.sign == y.sign &&
+           std::abs(x.coordinate - y.coordinate) < kCoplanar * spacing;
+  };
+  for (TriId t : lattice.facets.ids())
+    for (TriId other : neighbor[t]) {
+      if (!other.is_valid()) continue;
+      const int a = lattice.facet_to_chart[t], b = lattice.facet_to_chart[other];
+      if (a == b || !are_coplanar(a, b)) continue;
+      for (int& chart : lattice.facet_to_chart)
+        if (chart == std::max(a, b)) chart = std::min(a, b);
+    }
 }
 
 // Numbers the charts that still have facets, in their old order.
@@ -65,7 +98,7 @@ std::size_t merge_small_charts(Lattice& lattice,
         smallest = static_cast<int>(c);
     if (smallest < 0) break;
     double& lost = area[static_cast<std::size_t>(smallest)];
-    const int heir = longest_neighbor(lattice, smallest, neighbor);
+    const int heir = nearest_neighbor(lattice, smallest, neighbor);
     if (heir >= 0) {
       area[static_cast<std::size_t>(heir)] += lost;
       for (int& chart : lattice.facet_to_chart)
@@ -74,6 +107,7 @@ std::size_t merge_small_charts(Lattice& lattice,
     }
     lost = std::numeric_limits<double>::infinity();  // done with
   }
+  if (num_merged > 0) join_coplanar(lattice, neighbor, spacing);
   drop_empty_charts(lattice);
   return num_merged;
 }

@@ -84,6 +84,16 @@ class Runs(BenchTest):
         self.assertNotIn("already", self.run_bench(self.models, "-o", self.out, *QUICK, "--no-mesh", "--no-dual").stdout)
         self.assertNotIn("hexes", load(self.out)["cube.obj"]["methods"]["blocks"])
 
+    def test_another_build_of_the_same_version_evaluates_anew(self):
+        arguments = ["bench", self.models, "-o", self.out, *QUICK, "--no-mesh", "--no-pictures"]
+        self.run_bench(*arguments[1:])
+        other = self.path / "hexwright"
+        other.write_bytes(BINARY.read_bytes() + b"\0")  # what follows the last section is not loaded
+        other.chmod(0o755)
+        text = subprocess.run([other, *arguments], capture_output=True, text=True, check=True, timeout=300).stdout
+        self.assertNotIn("already", text)
+        self.assertIn("2 of 2 models are done already", subprocess.run([other, *arguments], capture_output=True, text=True, timeout=300).stdout)
+
     def test_a_model_that_takes_too_long_does_not_stop_the_rest(self):
         for record in self.limited("--seconds", "0.001").values():
             self.assertEqual(record["status"], "timeout")

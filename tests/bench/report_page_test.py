@@ -61,6 +61,14 @@ def check_page(page):
     assert len(widths) == 14 and all(w == 160 for w in widths), widths
 
 
+def check_agreements(page):
+    """Figure 11 shows a strip of pictures for every model it names."""
+    named = page.evaluate("summary.agree")
+    titles = page.locator("#agreeing b").all_text_contents()
+    assert len(titles) == len(named) and all(t.startswith(n) for t, n in zip(titles, named)), (titles, named)
+    assert page.locator("#agreeing .strip img").count() >= 5 * len(named)
+
+
 def check_sorting_and_filtering(page):
     head = page.locator("#models th", has_text="input cells")
     head.click()
@@ -103,7 +111,8 @@ def take_pictures(browser, report, prefix):
         page = open_page(browser, report, scheme)
         page.screenshot(path=f"{prefix}{scheme}.png", full_page=True)
         if scheme == "light":
-            for part in ("table1", "shares", "hexes", "fig12strong", "fig12weak", "fig13", "quality", "distance"):
+            for part in ("table1", "shares", "hexes", "fig12strong", "fig12weak", "fig12octree", "fig12sheets", "fig13", "quality", "distance",
+                         "agreesection"):
                 page.locator(f"#{part}").screenshot(path=f"{prefix}{part}.png")
     print(page.problems)
 
@@ -118,6 +127,7 @@ def main():
         assert background(light) != background(dark)
         for page in (light, dark):
             check_page(page)
+            check_agreements(page)
             check_sorting_and_filtering(page)
             check_plots(page)
             assert page.problems == [], page.problems
