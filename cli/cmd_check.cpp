@@ -90,7 +90,7 @@ void add_check_command(CLI::App& app, Program& program) {
       "  hexwright check other.mesh --json\n"
       "  hexwright check grid.cells");
   sub->callback([cmd, &program] {
-    check_outputs({cmd->report});
+    check_outputs({cmd->report}, {cmd->input, cmd->surface});
     if (cmd->as_grid || has_extension(cmd->input, {".cells", ".htg"}))
       check_grid(*cmd, program);
     else

@@ -22,7 +22,7 @@ struct DualCommand {
 };
 
 void run(const DualCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report});
+  check_outputs({cmd.output, cmd.report}, {cmd.input});
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start();
   const Grid grid = read_grid(cmd.input);

@@ -24,7 +24,7 @@ struct FitCommand {
 };
 
 void run(const FitCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture});
+  check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface});
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);

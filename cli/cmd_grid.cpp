@@ -22,7 +22,7 @@ struct GridCommand {
 };
 
 void run(const GridCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report});
+  check_outputs({cmd.output, cmd.report}, {cmd.input});
   require_extension(cmd.output, grid_extensions());
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);

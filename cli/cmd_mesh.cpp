@@ -34,7 +34,9 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 }
 
 void run(const MeshCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid});
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input});
+  if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
+  if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
@@ -82,7 +84,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   sub->add_option("--max-hexes", cmd->options.max_hexes, "Budget of the background mesh")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_count())
       ->capture_default_str();
   add_complete_options(*sub, cmd->options.complete);
   add_fit_options(*sub, cmd->options.fit);

@@ -105,7 +105,7 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
 }
 
 void run(const PolycubeCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid});
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start();
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
@@ -131,7 +131,8 @@ void run(const PolycubeCommand& cmd, Program& program) {
 
 void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
   sub.add_option_function<std::string>(
-      "--max-edge", [&cmd](const std::string& text) { cmd.max_edge = parse_share(text); },
+      "--max-edge",
+      [&cmd](const std::string& text) { cmd.max_edge = parse_share("--max-edge", text); },
       "Split cells whose edges on the object are longer than this share of the diagonal");
   sub.add_option_function<std::vector<std::array<double, 7>>>(
          "--size-box",
@@ -152,13 +153,17 @@ void add_polycube_command(CLI::App& app, Program& program) {
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
   sub->add_option_function<std::string>(
          "--max-stretch",
-         [cmd](const std::string& text) { cmd->options.max_stretch = parse_share(text); },
+         [cmd](const std::string& text) {
+           cmd->options.max_stretch = parse_share("--max-stretch", text);
+         },
          "A cell is split while two object points in it are farther apart than this share of the "
          "diagonal")
       ->default_str("2%");
   sub->add_option_function<std::string>(
          "--max-surface-error",
-         [cmd](const std::string& text) { cmd->options.max_surface_error = parse_share(text); },
+         [cmd](const std::string& text) {
+           cmd->options.max_surface_error = parse_share("--max-surface-error", text);
+         },
          "Cells are split where the mesh would miss the surface by more than this share of the "
          "diagonal, and again where it does")
       ->default_str("0.3%");

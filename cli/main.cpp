@@ -54,6 +54,9 @@ int run(int argc, char** argv) {
   program.executable = argv[0];
   CLI::App app("Adaptive all-hexahedral meshing", "hexwright");
   add_commands(app, program);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) {
+    return std::string("error: ") + e.what() + "; --help shows what can be given\n";
+  });
   try {
     app.parse(argc, argv);
     return program.exit_code;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -41,17 +42,28 @@ void add_choice(CLI::App& cmd, const std::string& name, Enum& value,
 
 }  // namespace
 
-double parse_share(const std::string& text) {
+CLI::Validator whole_count() {
+  const auto check = [](const std::string& text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc{} && stop == end && value > 0) return std::string();
+    return fmt::format("'{}' is no whole number from 1 up to 2^64; write digits only", text);
+  };
+  return {check, "COUNT"};
+}
+
+double parse_share(const std::string& option, const std::string& text) {
   char* end = nullptr;
   double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) throw CLI::ValidationError("'" + text + "' is not a number");
+  if (end == text.c_str()) throw CLI::ValidationError(option, "'" + text + "' is not a number");
   if (*end == '%') {
     value /= 100;
     ++end;
   }
   if (*end != '\0' || !(value > 0) || !(value < 1))
-    throw CLI::ValidationError("'" + text +
-                               "' is not a share of the diagonal; write e.g. 0.5% or 0.005");
+    throw CLI::ValidationError(
+        option, "'" + text + "' is not a share of the diagonal; write e.g. 0.5% or 0.005");
   return value;
 }
 
@@ -70,7 +82,9 @@ void add_sizing_options(CLI::App& cmd, SizingOptions& options) {
              "'thickness' by the shape diameter alone");
   cmd.add_option_function<std::string>(
          "--tolerance",
-         [&options](const std::string& text) { options.tolerance = parse_share(text); },
+         [&options](const std::string& text) {
+           options.tolerance = parse_share("--tolerance", text);
+         },
          "Distance goal as a share of the bounding box's diagonal, 0.5% or 0.005 [0.5%]")
       ->type_name("SHARE");
   cmd.add_option("--min-level", options.min_level, "Cells at the surface are at least this deep")
@@ -81,7 +95,7 @@ void add_sizing_options(CLI::App& cmd, SizingOptions& options) {
       ->capture_default_str();
   cmd.add_option("--max-cells", options.max_cells,
                  "Stop refining, at a whole level, before the grid has more cells")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_count())
       ->capture_default_str();
 }
 

@@ -30,8 +30,12 @@ void add_feature_options(CLI::App& cmd, FeatureOptions& options);
 /// --side, --padding, --feature-angle.
 void add_fit_options(CLI::App& cmd, FitOptions& options);
 
-/// A share of the diagonal: "0.5%" or "0.005". Throws CLI::ValidationError.
-double parse_share(const std::string& text);
+/// Accepts whole numbers from 1 up. CLI11's own checks compare as doubles and let counts that do
+/// not fit saturate.
+CLI::Validator whole_count();
+
+/// A share of the diagonal: "0.5%" or "0.005". Throws CLI::ValidationError naming the option.
+double parse_share(const std::string& option, const std::string& text);
 
 /// Fails early, before hours of work, when an output's extension is not among `extensions`.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);

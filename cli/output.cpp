@@ -2,6 +2,7 @@
 #include "output.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <unistd.h>
 
@@ -11,10 +12,39 @@
 
 namespace hexwright::cli {
 
-void check_outputs(std::initializer_list<std::string> paths) {
-  namespace fs = std::filesystem;
-  for (const std::string& path : paths) {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether two names lead to one file, which need not exist yet. Devices may serve twice.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored)) return false;
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+}
+
+void check_distinct(const std::vector<std::string>& outputs,
+                    std::initializer_list<std::string> inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if (is_same_file(outputs[i], outputs[k]))
+        throw Error(ErrorCode::BadArgument,
+                    "two outputs have this name; give each a file of its own", outputs[i]);
+    for (const std::string& input : inputs)
+      if (!input.empty() && is_same_file(outputs[i], input))
+        throw Error(ErrorCode::BadArgument,
+                    "the output would replace the input of this name; choose another", outputs[i]);
+  }
+}
+
+}  // namespace
+
+void check_outputs(std::initializer_list<std::string> outputs,
+                   std::initializer_list<std::string> inputs) {
+  std::vector<std::string> given;
+  for (const std::string& path : outputs) {
     if (path.empty()) continue;
+    given.push_back(path);
     std::error_code ignored;
     if (fs::is_directory(path, ignored))
       throw Error(ErrorCode::CannotOpen, "is a folder; name a file in it", path);
@@ -25,6 +55,7 @@ void check_outputs(std::initializer_list<std::string> paths) {
     if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
       throw Error(ErrorCode::CannotOpen, "the folder is not writable; choose another", path);
   }
+  check_distinct(given, inputs);
 }
 
 void write_mesh_with_quality(const std::string& path, const HexMesh& mesh) {

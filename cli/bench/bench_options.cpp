@@ -17,11 +17,13 @@ void add_bench_options(CLI::App& cmd, BenchOptions& options) {
       ->check(CLI::Range(1, kMaxGridLevel))
       ->capture_default_str();
   cmd.add_option("--grid-max-cells", grid.max_cells, "Input grids have no more cells")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_count())
       ->capture_default_str();
   cmd.add_option_function<std::string>(
          "--tolerance",
-         [&mesh](const std::string& text) { mesh.sizing.tolerance = parse_share(text); },
+         [&mesh](const std::string& text) {
+           mesh.sizing.tolerance = parse_share("--tolerance", text);
+         },
          "Distance goal of the final mesh, share of the diagonal [0.5%]")
       ->type_name("SHARE");
   cmd.add_option("--max-level", mesh.sizing.max_level, "Deepest cell of the final mesh's grid")
@@ -31,7 +33,7 @@ void add_bench_options(CLI::App& cmd, BenchOptions& options) {
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   cmd.add_option("--max-hexes", mesh.max_hexes, "Budget of the final mesh")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_count())
       ->capture_default_str();
   cmd.add_flag("--no-dual", options.no_dual, "Count cells only: no dual mesh of the grids");
   cmd.add_flag("--no-mesh", options.no_mesh, "Compare completions only: no final mesh");

@@ -104,6 +104,7 @@ struct SurfaceTree::Impl {
   std::int32_t fill_child_patches(int node);
   template <bool kByNormal, bool kByPatch>
   void test_slot(int slot, const Vec3& p, const ClosestFilter& filter, Best& best) const;
+  /// Filters are template parameters: plain queries are by far the most, and pay for none.
   template <bool kByNormal, bool kByPatch>
   void search(const Vec3& p, const ClosestFilter& filter, Best& best) const;
   /// Squared distance of the best in the frame of the boxes, rounded up.
@@ -140,6 +141,7 @@ void SurfaceTree::Impl::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
   if (!bvh.nodes.empty()) fill_child_patches(0);
 }
 
+/// Tells for each child whether all below it is one patch, so that a search for another passes it by.
 std::int32_t SurfaceTree::Impl::fill_child_patches(int node_id) {
   const BvhNode& node = bvh.nodes[static_cast<std::size_t>(node_id)];
   ChildPatches& of_node = child_patches[static_cast<std::size_t>(node_id)];

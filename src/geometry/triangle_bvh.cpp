@@ -18,6 +18,7 @@ double half_area(const Box3& box) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
+/// A triangle while the tree is built: boxes in the frame, where all sizes are near 1.
 struct Item {
   Box3 box;  // in the frame
   Vec3 center;
@@ -30,6 +31,7 @@ struct BinaryNode {
   int first = 0, count = 0;   // the triangles of a leaf
 };
 
+/// Triangles whose centre falls into one of the slices of a range.
 struct Bin {
   Box3 box;
   int count = 0;
@@ -49,6 +51,9 @@ class Builder {
     }
   }
 
+  /// Builds the binary tree over a range of items and returns its root. The order of the items becomes
+  /// the order of the leaves, so every subtree owns a range of consecutive slots (winding_moments
+  /// relies on it).
   int build(int first, int count, int depth) {
     const int id = static_cast<int>(binary_.size());
     binary_.emplace_back();
@@ -99,6 +104,8 @@ class Builder {
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
   BinaryNode& node(int i) { return binary_[static_cast<std::size_t>(i)]; }
 
+  /// The heuristic can peel off one triangle at a time; medians below a fixed depth bound the depth, and
+  /// with it the stacks of the queries.
   int split(int first, int count, const Box3& centers, int depth) {
     if (depth < kHeuristicDepth) {
       const int middle = split_by_area(first, count, centers);
@@ -107,6 +114,7 @@ class Builder {
     return split_at_median(first, count, centers);
   }
 
+  /// Equal centres go by triangle id: the tree must not depend on the library's nth_element.
   int split_at_median(int first, int count, const Box3& centers) {
     const Vec3 e = centers.extent();
     const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
@@ -150,6 +158,9 @@ class Builder {
     return static_cast<int>(middle - items_.begin());
   }
 
+  /// Costs of all borders in two sweeps: areas times counts from the right, then from the left.
+  /// MacDonald, Booth, "Heuristics for ray tracing using space subdivision", The Visual Computer 6,
+  /// 1990.
   static std::pair<double, int> cheapest_border(const std::array<Bin, kNumBins>& bins) {
     std::array<double, kNumBins> right_cost{};
     Bin sum;
@@ -190,6 +201,7 @@ class Builder {
     return {children, count};
   }
 
+  /// Unused children have boxes that nothing is near to, and leaves without triangles.
   static BvhNode empty_node() {
     BvhNode wide;
     for (int k = 0; k < 4; ++k) {
@@ -202,6 +214,7 @@ class Builder {
     return wide;
   }
 
+  /// Rounded outwards, so that a float box always holds its triangles.
   static void set_box(BvhNode& wide, int k, const Box3& box) {
     constexpr float kBig = 4;  // beyond every coordinate of the frame
     for (int axis = 0; axis < 3; ++axis) {

@@ -14,6 +14,10 @@ struct SlotRange {
 Vec3 area_normal(const TriangleData& t) { return cross(t.ab, t.ac) * 0.5; }
 Vec3 centroid(const TriangleData& t) { return t.a + (t.ab + t.ac) / 3; }
 
+/// Moments of a subtree about its area-weighted centre (Barill et al. 2018, section 3): the sum of area
+/// normals, and the first-order term, the outer products of offsets and normals, of which the
+/// symmetric part is all that the expansion uses. Computed from the triangles themselves, not from the
+/// children's moments: n log n, and no error adds up.
 void set_child(WindingNode::Pair& pair, int k, const std::vector<TriangleData>& slots,
                SlotRange range) {
   double area = 0;
@@ -89,6 +93,8 @@ Double2 far_field(const WindingNode::Pair& pair, const Double2 d[3], Double2 dis
   return inverse_sq * inverse * (dipole + trace - splat(3.0) * quadratic * inverse_sq);
 }
 
+/// Van Oosterom, Strackee, "The solid angle of a plane triangle", IEEE Transactions on Biomedical
+/// Engineering 30(2), 1983.
 double exact_half_angles(const std::vector<TriangleData>& slots, int first, int count,
                          const Vec3& p) {
   double sum = 0;
@@ -109,6 +115,7 @@ std::vector<WindingNode> compute_winding_nodes(const TriangleBvh& bvh,
   return nodes;
 }
 
+/// Near nodes are opened, far ones expanded, two children at a time.
 double evaluate_winding(const TriangleBvh& bvh, const std::vector<WindingNode>& nodes,
                         const std::vector<TriangleData>& slots, const Vec3& p, double accuracy) {
   if (nodes.empty()) return 0;

@@ -3,6 +3,8 @@
 //
 // Reference numbers: a hex's is its region; a quad's or edge's is its patch or curve plus one, 0
 // for none.
+#include <limits>
+
 #include "io/file_bytes.h"
 #include "io/polygon_soup.h"
 #include "io/text_scanner.h"
@@ -12,6 +14,7 @@
 namespace hexwright::io {
 namespace {
 
+/// Sections may come in any order, but vertices come before what uses them, as all writers do.
 class MeditReader {
  public:
   explicit MeditReader(const VolumeSource& source) : scanner_(source.bytes, source.name) {}
@@ -65,6 +68,7 @@ class MeditReader {
     return count;
   }
 
+  /// References of vertices are read over: nothing here has a use for them.
   void read_vertices() {
     const std::size_t count = section_count("the number of vertices", 4);
     file_.positions.reserve(count);
@@ -76,6 +80,7 @@ class MeditReader {
     }
   }
 
+  /// Indices count from 1.
   VertId read_vert() {
     const std::int64_t index = scanner_.integer("a vertex index");
     if (index < 1 || index > static_cast<std::int64_t>(file_.positions.size()))
@@ -85,7 +90,8 @@ class MeditReader {
   }
   std::int32_t read_ref() {
     const std::int64_t ref = scanner_.integer("an element's reference");
-    if (ref < -0x7fffffff || ref > 0x7fffffff)
+    if (ref < std::numeric_limits<std::int32_t>::min() ||
+        ref > std::numeric_limits<std::int32_t>::max())
       scanner_.fail("the reference " + std::to_string(ref) + " does not fit in 32 bits");
     return static_cast<std::int32_t>(ref);
   }
@@ -160,6 +166,7 @@ class MeditReader {
 
 VolumeFile read_medit(const VolumeSource& source) { return MeditReader(source).run(); }
 
+/// Coordinates have the fewest digits that give the same double back.
 std::string medit_text(const HexMesh& mesh) {
   TextWriter out;
   const auto section = [&](const char* name, std::size_t count) {

@@ -12,10 +12,13 @@
 namespace hexwright::io {
 namespace {
 
+/// Number types in an order that is relied on: all from Float32 on are no integers.
 enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
+/// Bytes of each type, by its number.
 constexpr std::size_t kTypeSize[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
+/// Each type goes by an old and a new name; both are in use.
 struct PlyTypeName {
   std::string_view name;
   PlyType type;
@@ -34,6 +37,7 @@ struct PlyProperty {
   std::optional<PlyType> list_count;  ///< set for lists
 };
 
+/// A run of rows of the same properties; which ones there are is the file's choice.
 struct PlyElement {
   std::string name;
   std::size_t count = 0;
@@ -59,6 +63,9 @@ void read_format(TextScanner& scanner, PlyHeader& header) {
   if (!header.is_ascii && format != "binary_big_endian" && format != "binary_little_endian")
     scanner.fail("unknown format " + in_quotes(format) +
                  "; expected ascii, binary_little_endian or binary_big_endian");
+  const auto version = scanner.line_token();
+  if (version != "1.0")
+    scanner.fail("unknown version " + in_quotes(version) + "; expected 1.0, export the file again");
 }
 
 void read_property(TextScanner& scanner, PlyHeader& header) {
@@ -77,6 +84,8 @@ void read_property(TextScanner& scanner, PlyHeader& header) {
   header.elements.back().properties.push_back(std::move(property));
 }
 
+/// Lines up to end_header. The body begins right behind that line's end, which matters in binary
+/// files, where a body may begin with any byte.
 PlyHeader read_ply_header(TextScanner& scanner) {
   PlyHeader header;
   bool has_format = false;
@@ -198,6 +207,8 @@ class PlyBinaryBody {
   std::size_t index_ = 0;
 };
 
+/// Walks through the elements in the order of the header. The body is text or bytes; both offer the
+/// same few functions, so that the rules about elements are written once.
 template <class Body>
 class PlyReader {
  public:
@@ -252,6 +263,8 @@ class PlyReader {
     soup_.positions.push_back(p);
   }
 
+  /// An entry takes at least a byte, so a list longer than the rest of the file is damage: no memory is
+  /// reserved on its word.
   std::size_t read_list_size(const PlyProperty& property) {
     const std::int64_t size = body_.integer(*property.list_count);
     if (size < 0 || static_cast<std::size_t>(size) > body_.bytes_left())
@@ -265,6 +278,7 @@ class PlyReader {
     for (std::size_t i = 0; i < count; ++i) body_.skip(property.type);
   }
 
+  /// Checks what an id can hold; whether the vertex exists is known at the end only.
   VertId to_vert(std::int64_t index) {
     if (index < 0 || index > static_cast<std::int64_t>(kMaxElements))
       body_.fail("the face uses vertex " + std::to_string(index) +

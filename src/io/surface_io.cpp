@@ -15,6 +15,7 @@ namespace hexwright {
 namespace io {
 namespace {
 
+/// A row of the table of formats; adding one means adding a row and its test of the content.
 struct SurfaceFormat {
   const char* name;
   const char* extension;
@@ -27,6 +28,7 @@ constexpr SurfaceFormat kStlText = {"STL (text)", ".stl", read_stl_ascii};
 constexpr SurfaceFormat kStlBinary = {"STL (binary)", ".stl", read_stl_binary};
 constexpr SurfaceFormat kPly = {"PLY", ".ply", read_ply};
 
+/// The first words of real OBJ files. Rarer ones alone do not prove the format; the extension does.
 bool is_obj_keyword(std::string_view token) {
   for (std::string_view known : {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl"})
     if (token == known) return true;
@@ -43,6 +45,8 @@ bool is_text_stl(const FileBytes& file, std::string_view first_token) {
   return false;
 }
 
+/// In an order that settles doubts: magic words, then an exact size, then words a header might hold by
+/// chance. Binary STL comes before text STL because many binary files begin with "solid".
 std::optional<SurfaceFormat> find_format_by_content(const FileBytes& file) {
   const std::string_view bytes = file.bytes;
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return kPly;
@@ -64,6 +68,7 @@ std::optional<SurfaceFormat> find_format_by_extension(const FileBytes& file,
   return std::nullopt;
 }
 
+/// Content beats the name, since files are renamed more often than they are damaged.
 SurfaceFormat find_format(const FileBytes& file, const std::string& extension,
                           std::vector<std::string>& warnings) {
   if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; export it again");
@@ -96,6 +101,7 @@ std::string off_text(const TriMesh& surface) {
   return out.take();
 }
 
+/// Single precision is all the format has; normals are written for programs that shade by them.
 std::string stl_bytes(const TriMesh& surface) {
   std::string out(80, ' ');
   out.replace(0, 9, "hexwright");
@@ -112,6 +118,7 @@ std::string stl_bytes(const TriMesh& surface) {
   return out;
 }
 
+/// Double precision, so that nothing is lost between our own runs.
 std::string ply_bytes(const TriMesh& surface) {
   TextWriter header;
   header.text("ply\nformat binary_little_endian 1.0\ncomment hexwright\nelement vertex ");

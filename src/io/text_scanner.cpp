@@ -30,6 +30,8 @@ TextScanner::TextScanner(std::string_view text, std::string file_name)
   if (text.substr(0, 3) == "\xEF\xBB\xBF") at_ += 3;  // byte order mark of UTF-8
 }
 
+/// Blanks, comments and continued lines (a backslash before the line end, as OBJ has them). True when a
+/// token follows on this line.
 bool TextScanner::skip_in_line() {
   while (at_ < end_) {
     if (is_blank(*at_)) {
@@ -62,6 +64,7 @@ std::string_view TextScanner::line_token() {
   return {first, static_cast<std::size_t>(at_ - first)};
 }
 
+/// Titles and marks are taken as they stand: '#' begins no comment here.
 std::string_view TextScanner::rest_of_line() {
   const char* first = at_;
   const void* stop =
@@ -76,12 +79,15 @@ std::string_view TextScanner::rest_of_line() {
   return {first, static_cast<std::size_t>(last - first)};
 }
 
+/// Raw bytes from here, for the binary parts of formats with text headers. Lines are not counted in
+/// them.
 std::string_view TextScanner::take(std::size_t num_bytes) {
   const std::string_view result(at_, std::min(num_bytes, bytes_left()));
   at_ += result.size();
   return result;
 }
 
+/// True when any token follows, on this line or a later one.
 bool TextScanner::skip_blank() {
   while (!skip_in_line()) {
     if (at_ == end_) return false;
@@ -104,6 +110,8 @@ std::string_view TextScanner::peek_token() {
   return result;
 }
 
+/// Locale-free and exact to the last bit. Too small to be told from zero is zero; too large is an
+/// error, as is anything after the number.
 double TextScanner::to_real(std::string_view token, const char* what) const {
   std::string_view digits = token;
   if (!digits.empty() && digits[0] == '+') digits.remove_prefix(1);
@@ -148,6 +156,7 @@ std::size_t TextScanner::count(const char* what) {
   return static_cast<std::size_t>(value);
 }
 
+/// All three on one line: a missing coordinate must not be made up from the next vertex.
 Vec3 TextScanner::line_point(const char* what) {
   Vec3 p;
   for (int axis = 0; axis < 3; ++axis) {
@@ -183,6 +192,7 @@ bool equals_ignoring_case(std::string_view a, std::string_view b) {
   return true;
 }
 
+/// What a file holds may be anything: only printable characters reach a message, and few of them.
 std::string in_quotes(std::string_view token) {
   constexpr std::size_t kLongest = 40;
   std::string text = "'";

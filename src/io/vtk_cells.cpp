@@ -76,10 +76,13 @@ class VtkConverter {
     return verts;
   }
 
+  /// Labels are stored as numbers of any type; what is none of 32 bits is no label.
   std::int32_t integer_at(const VtkArray* array, std::size_t i) const {
     if (!array) return -1;
     const double value = array->values[i];
-    return std::abs(value) <= 0x7fffffff ? static_cast<std::int32_t>(value) : -1;
+    const bool fits = value >= std::numeric_limits<std::int32_t>::min() &&
+                      value <= std::numeric_limits<std::int32_t>::max();  // not so for NaN
+    return fits ? static_cast<std::int32_t>(value) : -1;
   }
 
   void add_hex(const std::array<VertId, 8>& verts) {
@@ -87,6 +90,7 @@ class VtkConverter {
     if (region_) file_.region.push_back(integer_at(region_, cell_));
   }
 
+  /// VTK's hexahedron has our order; its voxel has lattice order, so two pairs change places.
   void add_cell(std::span<const std::int64_t> cell) {
     switch (grid_.types[cell_]) {
       case VtkHexahedron:
@@ -130,6 +134,8 @@ class VtkConverter {
     return &found->second;
   }
 
+  /// N vertices of a row of a field array. Foreign files may use our names for anything, so they are
+  /// checked like cells.
   template <std::size_t N>
   std::array<VertId, N> field_verts(const VtkArray& array, std::size_t row,
                                     const char* what) const {
@@ -190,6 +196,7 @@ VtkOutArray int_array(const char* name, std::size_t num_components) {
   return array;
 }
 
+/// Field data belongs to the mesh as a whole: programs that do not know it carry it along untouched.
 void add_label_arrays(const BoundaryLabels& labels, VtkOutput& out) {
   if (!labels.quads.empty()) {
     VtkOutArray quads = int_array(kQuads, 4), patch = int_array(kQuadPatch, 1);
@@ -249,6 +256,7 @@ void add_set_cells(const HexMesh& mesh, VtkOutput& out) {
   out.cell_data.push_back(std::move(curve));
 }
 
+/// Cells behind the hexes get values that say "none": region -1, not a number elsewhere.
 void add_cell_fields(const HexMesh& mesh, const WriteHexOptions& options, VtkOutput& out) {
   if (!mesh.region.empty()) {
     VtkOutArray region = int_array("region", 1);

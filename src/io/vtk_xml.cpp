@@ -12,6 +12,7 @@
 namespace hexwright::io {
 namespace {
 
+/// Every number becomes a double: ids and counts of real files stay far below 2^53.
 struct XmlNumberType {
   std::string_view name;
   std::size_t size;
@@ -40,6 +41,7 @@ std::vector<double> unpack_bits(std::string_view bytes, std::size_t count) {
   return bits;
 }
 
+/// The parser tells byte offsets, people count lines.
 std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
   std::size_t line = 1;
   for (char c : text.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, offset))))
@@ -49,6 +51,8 @@ std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
+/// Raw appended data is no XML (any byte may occur in it), so the parser gets the text before it with
+/// the open elements closed by hand, and the data is kept as a view into the file.
 VtkXmlFile::VtkXmlFile(const VolumeSource& source) : source_(source) {
   const std::string_view bytes = source.bytes;
   const std::size_t tag = bytes.find("<AppendedData");
@@ -88,6 +92,8 @@ void VtkXmlFile::parse_xml(std::string_view text) {
   if (!root_) throw bad_file(source_.name, "there is no VTKFile element; this is no file of VTK");
 }
 
+/// The bytes of one array, from wherever its format says they are. An offset behind the end means a
+/// truncated file, the commonest damage of this format.
 std::string VtkXmlFile::decode(const pugi::xml_node& array, const std::string& where) const {
   BlockFormat format = format_;
   if (std::strcmp(array.attribute("format").value(), "appended") != 0) {
@@ -103,6 +109,7 @@ std::string VtkXmlFile::decode(const pugi::xml_node& array, const std::string& w
   return decode_block(appended_.substr(offset), format, where);
 }
 
+/// NaN is let through: fields may hold it. Positions and indices are checked by those who use them.
 std::vector<double> VtkXmlFile::text_values(const pugi::xml_node& array,
                                             const std::string& where) const {
   std::vector<double> values;
@@ -152,6 +159,7 @@ void VtkXmlWriter::array(const VtkOutArray& array, Kind kind) {
     this->array<double>(array.name, "Float64", array.num_components, array.reals, tuples);
 }
 
+/// Offsets count from behind the underscore that opens the appended data.
 void VtkXmlWriter::array_bytes(const std::string& name, const char* type,
                                std::size_t num_components, std::string_view bytes,
                                const std::string& more_attributes) {

@@ -30,6 +30,7 @@ class VtuReader {
   }
 
  private:
+  /// Pieces are put one behind the other; their indices count from their own first vertex.
   void read_piece(const pugi::xml_node& piece) {
     const auto points = file_.values(piece.child("Points").child("DataArray"));
     if (points.size() % 3 != 0)
@@ -56,6 +57,7 @@ class VtuReader {
       grid_.types.push_back(static_cast<std::int32_t>(to_index(type)));
   }
 
+  /// Also refuses NaN, for which neither comparison holds.
   std::int64_t to_index(double value) const {
     if (!(value >= 0 && value <= static_cast<double>(kMaxElements)))
       throw bad_element(file_.name(), "Cells",

@@ -7,6 +7,7 @@
 
 namespace hexwright {
 
+/// Counting sort: counts, offsets, then placing in order of hexes, which leaves every row sorted.
 VertToHex::VertToHex(const HexMesh& mesh) : offset_(mesh.num_verts() + 1, 0) {
   for (const auto& hex : mesh.hexes)
     for (VertId v : hex) ++offset_[v.index() + 1];

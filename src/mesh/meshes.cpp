@@ -26,6 +26,7 @@ std::optional<Issue> find_bad_index(const IdVector<IdType, std::array<VertId, N>
   return std::nullopt;
 }
 
+/// Vertices that nothing uses may lie anywhere, also at infinity: they do not count.
 template <class Elements>
 Box3 box_of_used(const IdVector<VertId, Vec3>& positions, const Elements& elements) {
   Box3 box;
@@ -66,6 +67,7 @@ Box3 bounding_box(const TriMesh& surface) { return box_of_used(surface.positions
 
 Box3 bounding_box(const HexMesh& mesh) { return box_of_used(mesh.positions, mesh.hexes); }
 
+/// Labels may only use vertices that hexes use, so they always find a new number.
 void remove_unused_verts(HexMesh& mesh) {
   IdVector<VertId, VertId> old_to_new(mesh.num_verts());
   for (const auto& hex : mesh.hexes)

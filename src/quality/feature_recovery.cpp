@@ -41,6 +41,7 @@ CurveSamples sample_curves(const TriMesh& surface, const FeatureGraph& features,
 
 using Edge = std::array<VertId, 2>;
 
+/// Each edge once, lower vertex first.
 std::vector<Edge> collect_edges(const std::vector<std::array<VertId, 4>>& quads) {
   std::vector<Edge> edges;
   edges.reserve(4 * quads.size());

@@ -6,11 +6,14 @@
 namespace hexwright {
 namespace {
 
+/// All checks below index without looking.
 void require_sound_arrays(const HexMesh& mesh) {
   if (const auto issue = mesh.find_problem())
     throw Error(ErrorCode::BadArgument, issue->message + "; repair the mesh's arrays first");
 }
 
+/// Inverted corners fail; the inside of elements only warns, because meshes of other programs are
+/// judged as well, and most have no proof of it.
 void add_quality_findings(Verdict& verdict) {
   const QualitySummary& q = verdict.quality;
   if (q.num_inverted > 0)
@@ -27,6 +30,7 @@ void add_quality_findings(Verdict& verdict) {
         "{} hex(es) could not be proven to have a positive Jacobian inside", q.num_undecided));
 }
 
+/// What needs no surface.
 Verdict judge_mesh(const HexMesh& mesh, const Context& context) {
   require_sound_arrays(mesh);
   Verdict verdict;

@@ -30,6 +30,7 @@ std::string line(const char* label, const std::string& text) {
   return fmt::format("  {:<10} {}\n", label, text);
 }
 
+/// What there is, then its shape; the genus only where the boundary is a manifold and has one.
 std::string topology_lines(const TopologyReport& t) {
   std::string text =
       line("mesh", fmt::format("{}, {}, {}", counted(t.num_hexes, "hex", "hexes"),
@@ -42,6 +43,7 @@ std::string topology_lines(const TopologyReport& t) {
   return text + line("topology", shape);
 }
 
+/// Unproven hexes are counted even when no corner is inverted: solvers integrate inside.
 std::string quality_lines(const QualitySummary& q) {
   if (q.num_hexes == 0) return {};
   std::string text = line(
@@ -99,6 +101,7 @@ std::string sentences(const char* label, const std::vector<std::string>& list) {
 
 }  // namespace
 
+/// The judgement first, then its reasons, then the figures; the histogram last, because it is long.
 std::string verdict_to_text(const Verdict& verdict) {
   std::string text = verdict.is_valid() ? "VALID hex mesh\n" : "NOT A VALID hex mesh\n";
   text += sentences("failure", verdict.failures);

@@ -59,8 +59,26 @@ class Usage(CliTest):
                           ["mesh", self.cube, "-o", self.path / "a.docx"],
                           ["mesh", self.cube, "-o", self.path / "a.vtu", "--min-level", "5", "--max-level", "4"]):
             done = self.run_binary(*arguments, expect=2)
-            self.assertTrue(done.stderr.strip(), arguments)
+            self.assertRegex(done.stderr, r"\Aerror: [^\n]+\n\Z", arguments)
         self.assertEqual(self.files(), ["cube.obj"])
+
+    def test_a_bad_value_is_named_with_its_option(self):
+        for option, value in (("--tolerance", "nan"), ("--max-level", "abc"), ("--max-level", "99"),
+                              ("--max-hexes", "-5"), ("--max-hexes", "9" * 23), ("--max-cells", "1e6"),
+                              ("--max-cells", "0"), ("--feature-angle", "400"), ("--rounds", "x"),
+                              ("--picture", "a.jpg"), ("--save-grid", "a.stl")):
+            done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", option, value, expect=2)
+            self.assertIn(value, done.stderr)
+            self.assertTrue(option in done.stderr or "." in value, done.stderr)
+            self.assertLess(len(done.stderr), 300)
+
+    def test_outputs_neither_clash_nor_replace_inputs(self):
+        out = self.path / "a.vtu"
+        self.run_binary("mesh", self.cube, "-o", out, "--report", self.path / "." / "a.vtu", expect=2)
+        self.run_binary("mesh", self.cube, "-o", out, "--report", self.cube, expect=2)
+        self.run_binary("grid", self.cube, "-o", self.path / "a.cells", "--report", self.cube, expect=2)
+        self.assertEqual(self.files(), ["cube.obj"])
+        self.assertEqual(self.cube.read_text(), CUBE)
 
     def test_version(self):
         self.assertRegex(self.run_binary("--version").stdout, r"hexwright \d+\.\d+\.\d+")
