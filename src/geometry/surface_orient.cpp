@@ -105,8 +105,8 @@ std::vector<char> prefer_majority(const TriMesh& mesh, Agreement& agreement) {
   return is_mixed;
 }
 
-/// A part is closed when every edge has an even number of its own triangles: closed parts that touch
-/// others along an edge still count as closed.
+/// A part is closed when every edge has an even number of its own triangles: closed parts that
+/// touch others along an edge still count as closed.
 std::vector<Part> split_parts(const TriMesh& mesh, const SurfaceEdges& edges,
                               const Agreement& agreement, const std::vector<char>& was_mixed) {
   std::vector<Part> parts(static_cast<std::size_t>(agreement.num_parts));
@@ -149,8 +149,8 @@ bool is_inside(const Part& part, const SurfaceTree& other) {
   return true;
 }
 
-/// Which closed parts hold which others, by sampled winding numbers; quadratic in the parts, but boxes
-/// rule out nearly all pairs.
+/// Which closed parts hold which others, by sampled winding numbers; quadratic in the parts, but
+/// boxes rule out nearly all pairs.
 void find_containers(std::vector<Part>& parts, const Context& context) {
   if (parts.size() < 2 || parts.size() > kMaxNestingParts) return;
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {

@@ -141,7 +141,8 @@ void SurfaceTree::Impl::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
   if (!bvh.nodes.empty()) fill_child_patches(0);
 }
 
-/// Tells for each child whether all below it is one patch, so that a search for another passes it by.
+/// Tells for each child whether all below it is one patch, so that a search for another passes it
+/// by.
 std::int32_t SurfaceTree::Impl::fill_child_patches(int node_id) {
   const BvhNode& node = bvh.nodes[static_cast<std::size_t>(node_id)];
   ChildPatches& of_node = child_patches[static_cast<std::size_t>(node_id)];

@@ -51,9 +51,9 @@ class Builder {
     }
   }
 
-  /// Builds the binary tree over a range of items and returns its root. The order of the items becomes
-  /// the order of the leaves, so every subtree owns a range of consecutive slots (winding_moments
-  /// relies on it).
+  /// Builds the binary tree over a range of items and returns its root. The order of the items
+  /// becomes the order of the leaves, so every subtree owns a range of consecutive slots
+  /// (winding_moments relies on it).
   int build(int first, int count, int depth) {
     const int id = static_cast<int>(binary_.size());
     binary_.emplace_back();
@@ -104,8 +104,8 @@ class Builder {
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
   BinaryNode& node(int i) { return binary_[static_cast<std::size_t>(i)]; }
 
-  /// The heuristic can peel off one triangle at a time; medians below a fixed depth bound the depth, and
-  /// with it the stacks of the queries.
+  /// The heuristic can peel off one triangle at a time; medians below a fixed depth bound the
+  /// depth, and with it the stacks of the queries.
   int split(int first, int count, const Box3& centers, int depth) {
     if (depth < kHeuristicDepth) {
       const int middle = split_by_area(first, count, centers);

@@ -14,10 +14,10 @@ struct SlotRange {
 Vec3 area_normal(const TriangleData& t) { return cross(t.ab, t.ac) * 0.5; }
 Vec3 centroid(const TriangleData& t) { return t.a + (t.ab + t.ac) / 3; }
 
-/// Moments of a subtree about its area-weighted centre (Barill et al. 2018, section 3): the sum of area
-/// normals, and the first-order term, the outer products of offsets and normals, of which the
-/// symmetric part is all that the expansion uses. Computed from the triangles themselves, not from the
-/// children's moments: n log n, and no error adds up.
+/// Moments of a subtree about its area-weighted centre (Barill et al. 2018, section 3): the sum of
+/// area normals, and the first-order term, the outer products of offsets and normals, of which the
+/// symmetric part is all that the expansion uses. Computed from the triangles themselves, not from
+/// the children's moments: n log n, and no error adds up.
 void set_child(WindingNode::Pair& pair, int k, const std::vector<TriangleData>& slots,
                SlotRange range) {
   double area = 0;

@@ -263,8 +263,8 @@ class PlyReader {
     soup_.positions.push_back(p);
   }
 
-  /// An entry takes at least a byte, so a list longer than the rest of the file is damage: no memory is
-  /// reserved on its word.
+  /// An entry takes at least a byte, so a list longer than the rest of the file is damage: no
+  /// memory is reserved on its word.
   std::size_t read_list_size(const PlyProperty& property) {
     const std::int64_t size = body_.integer(*property.list_count);
     if (size < 0 || static_cast<std::size_t>(size) > body_.bytes_left())

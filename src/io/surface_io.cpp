@@ -45,8 +45,8 @@ bool is_text_stl(const FileBytes& file, std::string_view first_token) {
   return false;
 }
 
-/// In an order that settles doubts: magic words, then an exact size, then words a header might hold by
-/// chance. Binary STL comes before text STL because many binary files begin with "solid".
+/// In an order that settles doubts: magic words, then an exact size, then words a header might hold
+/// by chance. Binary STL comes before text STL because many binary files begin with "solid".
 std::optional<SurfaceFormat> find_format_by_content(const FileBytes& file) {
   const std::string_view bytes = file.bytes;
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return kPly;

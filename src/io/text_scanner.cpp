@@ -30,8 +30,8 @@ TextScanner::TextScanner(std::string_view text, std::string file_name)
   if (text.substr(0, 3) == "\xEF\xBB\xBF") at_ += 3;  // byte order mark of UTF-8
 }
 
-/// Blanks, comments and continued lines (a backslash before the line end, as OBJ has them). True when a
-/// token follows on this line.
+/// Blanks, comments and continued lines (a backslash before the line end, as OBJ has them). True
+/// when a token follows on this line.
 bool TextScanner::skip_in_line() {
   while (at_ < end_) {
     if (is_blank(*at_)) {

@@ -134,8 +134,8 @@ class VtkConverter {
     return &found->second;
   }
 
-  /// N vertices of a row of a field array. Foreign files may use our names for anything, so they are
-  /// checked like cells.
+  /// N vertices of a row of a field array. Foreign files may use our names for anything, so they
+  /// are checked like cells.
   template <std::size_t N>
   std::array<VertId, N> field_verts(const VtkArray& array, std::size_t row,
                                     const char* what) const {
@@ -196,7 +196,8 @@ VtkOutArray int_array(const char* name, std::size_t num_components) {
   return array;
 }
 
-/// Field data belongs to the mesh as a whole: programs that do not know it carry it along untouched.
+/// Field data belongs to the mesh as a whole: programs that do not know it carry it along
+/// untouched.
 void add_label_arrays(const BoundaryLabels& labels, VtkOutput& out) {
   if (!labels.quads.empty()) {
     VtkOutArray quads = int_array(kQuads, 4), patch = int_array(kQuadPatch, 1);

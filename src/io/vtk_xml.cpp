@@ -51,8 +51,8 @@ std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
-/// Raw appended data is no XML (any byte may occur in it), so the parser gets the text before it with
-/// the open elements closed by hand, and the data is kept as a view into the file.
+/// Raw appended data is no XML (any byte may occur in it), so the parser gets the text before it
+/// with the open elements closed by hand, and the data is kept as a view into the file.
 VtkXmlFile::VtkXmlFile(const VolumeSource& source) : source_(source) {
   const std::string_view bytes = source.bytes;
   const std::size_t tag = bytes.find("<AppendedData");

@@ -91,8 +91,8 @@ class Rows {
 
 }  // namespace
 
-/// Counts first, points on demand: a surface sampled finely needs no memory for its samples, and any
-/// chunk can be visited alone.
+/// Counts first, points on demand: a surface sampled finely needs no memory for its samples, and
+/// any chunk can be visited alone.
 TriangleSamples::TriangleSamples(const TriMesh& surface, double spacing)
     : surface_(surface), spacing_(spacing), offset_(surface.num_tris() + 1, 0) {
   std::vector<std::array<double, 3>> corner_weights(surface.num_tris());
