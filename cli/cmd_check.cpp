@@ -14,7 +14,6 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "verdict_text.h"
 
 namespace hexwright::cli {
 namespace {

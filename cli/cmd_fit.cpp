@@ -7,12 +7,12 @@
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
+#include "hexwright/quality/verdict_json.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
 #include "picture_file.h"
-#include "verdict_text.h"
 
 namespace hexwright::cli {
 namespace {
@@ -52,7 +52,7 @@ void run(const FitCommand& cmd, Program& program) {
   const Verdict verdict = judge(result.mesh, tree, judge_options, context);
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
                                     background.num_hexes()));
-  print_verdict(verdict, program.console);
+  program.console.print_block(figures_to_text(verdict));
   for (const std::string& w : verdict.warnings) program.console.warn(cmd.output + ": " + w);
   for (const std::string& f : verdict.failures) program.console.fail(cmd.output + ": " + f);
   program.exit_code = verdict.is_valid() ? Valid : FailsGate;

@@ -8,12 +8,12 @@
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
+#include "hexwright/quality/verdict_json.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
 #include "picture_file.h"
-#include "verdict_text.h"
 
 namespace hexwright::cli {
 namespace {
@@ -28,7 +28,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
                             result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
-  print_verdict(result.verdict, console);
+  console.print_block(figures_to_text(result.verdict));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
 }

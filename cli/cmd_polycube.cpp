@@ -18,7 +18,6 @@
 #include "options.h"
 #include "output.h"
 #include "picture_file.h"
-#include "verdict_text.h"
 
 namespace hexwright::cli {
 namespace {
@@ -84,7 +83,7 @@ void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, con
         "object{}",
         f.hex.value(), f.center.x, f.center.y, f.center.z, f.scaled_jacobian, f.tet.value() + 1,
         f.is_map_folded ? ", where the map is folded" : ""));
-  print_verdict(verdict, console);
+  console.print_block(figures_to_text(verdict));
 }
 
 // The least of the edges asked for at a point.

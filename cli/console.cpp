@@ -63,10 +63,12 @@ void Console::clear_progress() {
   shown_.clear();
 }
 
-void Console::print(std::string_view line) {
+void Console::print(std::string_view line) { print_block(fmt::format("{}\n", line)); }
+
+void Console::print_block(std::string_view text) {
   if (is_quiet) return;
   clear_progress();
-  fmt::print("{}\n", line);
+  fmt::print("{}", text);
   std::fflush(stdout);  // progress lines of a long run are read as they come
 }
 

@@ -21,9 +21,10 @@ class Console {
   /// `about` is the file that warnings name.
   Context start(std::string about = {});
 
-  void print(std::string_view line);    ///< a result line, unless quiet
-  void warn(std::string_view message);  ///< "warning: ..."
-  void fail(std::string_view message);  ///< "error: ..."
+  void print(std::string_view line);        ///< a result line, unless quiet
+  void print_block(std::string_view text);  ///< lines that end with a line end each
+  void warn(std::string_view message);      ///< "warning: ..."
+  void fail(std::string_view message);      ///< "error: ..."
   void clear_progress();
 
  private:

@@ -8,7 +8,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/surface_topology.h"
 
-#include "quality/disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "hexwright/mesh/tri_mesh.h"
+
+#include "base/disjoint_sets.h"
 
 namespace hexwright {
 
@@ -42,30 +43,8 @@ struct SurfaceEdges {
 
 SurfaceEdges compute_surface_edges(const TriMesh& surface);
 
-/// Disjoint sets with path halving; the root of a set is its least element.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int x) {
-    while (parent_[static_cast<std::size_t>(x)] != x) {
-      int& up = parent_[static_cast<std::size_t>(x)];
-      up = parent_[static_cast<std::size_t>(up)];
-      x = up;
-    }
-    return x;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    if (a < b) parent_[static_cast<std::size_t>(b)] = a;
-    if (b < a) parent_[static_cast<std::size_t>(a)] = b;
-  }
-
- private:
-  std::vector<int> parent_;
-};
+/// Over the 32-bit numbers of triangles, vertices or curves.
+using UnionFind = BasicDisjointSets<int>;
 
 /// Numbers the sets 0, 1, ... in the order of their least elements.
 std::vector<int> number_sets(UnionFind& sets, std::size_t count);

@@ -4,7 +4,7 @@
 
 #include "hexwright/base/parallel.h"
 
-#include "quality/disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 namespace hexwright {
 namespace {

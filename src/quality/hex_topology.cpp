@@ -8,8 +8,8 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "base/disjoint_sets.h"
 #include "quality/boundary_surface.h"
-#include "quality/disjoint_sets.h"
 #include "quality/hanging_verts.h"
 #include "quality/vert_links.h"
 

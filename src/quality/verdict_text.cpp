@@ -106,11 +106,14 @@ std::string verdict_to_text(const Verdict& verdict) {
   std::string text = verdict.is_valid() ? "VALID hex mesh\n" : "NOT A VALID hex mesh\n";
   text += sentences("failure", verdict.failures);
   text += sentences("warning", verdict.warnings);
-  text += topology_lines(verdict.topology);
-  text += quality_lines(verdict.quality);
+  return text + figures_to_text(verdict) + histogram_lines(verdict.quality);
+}
+
+std::string figures_to_text(const Verdict& verdict) {
+  std::string text = topology_lines(verdict.topology) + quality_lines(verdict.quality);
   if (verdict.distance) text += distance_lines(*verdict.distance);
   if (verdict.features) text += feature_lines(*verdict.features);
-  return text + histogram_lines(verdict.quality);
+  return text;
 }
 
 }  // namespace hexwright

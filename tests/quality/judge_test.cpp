@@ -162,5 +162,20 @@ TEST(VerdictText, SaysWhatTheVerdictHolds) {
   EXPECT_NE(text.find("failure: "), std::string::npos);
 }
 
+// Callers that say failures themselves take the figures alone.
+TEST(VerdictText, FiguresArePartOfTheReportWithoutItsJudgement) {
+  HexMesh mesh = test::box_hex_mesh(3, 2, 2);
+  for (bool is_valid : {true, false}) {
+    if (!is_valid) std::swap(mesh.hexes[HexId(3)][0], mesh.hexes[HexId(3)][6]);
+    const Verdict verdict = judge(mesh, SurfaceTree(test::unit_cube_surface()), {}, {});
+    const std::string figures = figures_to_text(verdict);
+    EXPECT_NE(verdict_to_text(verdict).find(figures), std::string::npos);
+    EXPECT_EQ(figures.find("VALID"), std::string::npos);
+    EXPECT_EQ(figures.find("failure"), std::string::npos);
+    for (const char* part : {"12 hexes", "scaled Jacobian", "distance", "features"})
+      EXPECT_NE(figures.find(part), std::string::npos) << part << " in\n" << figures;
+  }
+}
+
 }  // namespace
 }  // namespace hexwright

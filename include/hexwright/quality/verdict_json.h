@@ -15,4 +15,8 @@ std::string verdict_to_json(const Verdict& verdict, int indent = 2);
 /// A report of some twenty lines, with a histogram of the scaled Jacobian. Ends with a newline.
 std::string verdict_to_text(const Verdict& verdict);
 
+/// The part of it that is figures: mesh, topology, quality, volume, and distance and features where
+/// they were measured; a line or two each. For callers that say failures and warnings themselves.
+std::string figures_to_text(const Verdict& verdict);
+
 }  // namespace hexwright
