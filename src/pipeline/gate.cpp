@@ -6,8 +6,6 @@
 namespace hexwright {
 namespace {
 
-constexpr double kGateFactor = 2;  ///< of the tolerance; see mesh_surface.h
-
 /// Genus and components against the surface's are the judge's warnings already; a count that is
 /// certainly wrong fails.
 void judge_topology(const RoundInput& input, MeshResult& result) {

@@ -83,8 +83,8 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
 /// affordable. Returns the best round.
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
   const MeshOptions& options = input.options;
-  const std::size_t budget =
-      input.expected.is_known ? options.max_loop_hexes : options.max_loop_hexes / kDefectiveShare;
+  const bool is_sound = input.expected.is_known && result.surface.num_boundary_edges == 0;
+  const std::size_t budget = options.max_loop_hexes / (is_sound ? 1 : kDefectiveShare);
   Round current = run_round(input, std::move(completed));
   std::size_t total_hexes = current.record.num_background;
   Round best = current;

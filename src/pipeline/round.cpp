@@ -111,7 +111,10 @@ bool is_content(const RoundInput& input, const Round& round) {
 
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
-    return std::array<bool, 5>{r.verdict.is_valid(), has_expected_topology(input, r),
+    // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.
+    return std::array<bool, 6>{r.verdict.is_valid(),
+                               has_expected_topology(input, r),
+                               max_distance(r) <= kGateFactor * input.options.sizing.tolerance,
                                max_distance(r) <= input.options.sizing.tolerance,
                                r.verdict.quality.min_scaled_jacobian >= input.options.min_quality,
                                !misses_features(input, r)};

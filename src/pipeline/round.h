@@ -9,6 +9,9 @@
 
 namespace hexwright {
 
+/// The gate of distance, as a multiple of the tolerance; see mesh_surface.h.
+constexpr double kGateFactor = 2;
+
 /// What all rounds share.
 struct RoundInput {
   const SurfaceTree& tree;
@@ -34,9 +37,9 @@ Round run_round(const RoundInput& input, CompleteResult completed);
 bool is_content(const RoundInput& input, const Round& round);
 
 /// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
-/// tolerance before beyond, then quality, then features that are followed closely. Among equals the
-/// nearer one; when both are near enough, the one that follows more of its features, and when both
-/// follow enough, the smaller one.
+/// gate before beyond, within the tolerance before beyond, then quality, then features that are
+/// followed closely. Among equals the nearer one; when both are near enough, the one that follows
+/// more of its features, and when both follow enough, the smaller one.
 bool is_better(const RoundInput& input, const Round& a, const Round& b);
 
 /// Leaves of the completed grid that hold points the fit missed, of the surface or of its features.

@@ -1,0 +1,65 @@
+// Which of two rounds of the loop is the better result.
+#include "pipeline/round.h"
+
+#include <gtest/gtest.h>
+
+#include "helpers.h"
+
+namespace hexwright {
+namespace {
+
+class RoundTest : public testing::Test {
+ protected:
+  /// A round as the loop sees it. Distances in tolerances.
+  Round round(double distance, double quality, int num_hexes = 10) const {
+    Round r;
+    r.verdict.distance.emplace();
+    r.verdict.distance->max_to_mesh = distance * options_.sizing.tolerance;
+    r.verdict.quality.min_scaled_jacobian = quality;
+    r.fit.mesh.hexes.resize(static_cast<std::size_t>(num_hexes));
+    return r;
+  }
+  /// Better, and the other one is not better as well.
+  void expect_better(const Round& a, const Round& b) const {
+    const RoundInput input{tree_, options_, expected_, context_};
+    EXPECT_TRUE(is_better(input, a, b));
+    EXPECT_FALSE(is_better(input, b, a));
+  }
+
+  SurfaceTree tree_{test::unit_cube_surface()};
+  MeshOptions options_;
+  ExpectedTopology expected_;
+  Context context_;
+};
+
+TEST_F(RoundTest, ValidityGoesBeforeEverything) {
+  Round invalid = round(0.1, 0.9);
+  invalid.verdict.failures.push_back("inverted");
+  expect_better(round(50, 0.01), invalid);
+}
+
+TEST_F(RoundTest, TheGateGoesBeforeQuality) { expect_better(round(1.5, 0.17), round(7.5, 0.2)); }
+
+TEST_F(RoundTest, TheToleranceGoesBeforeQuality) {
+  expect_better(round(0.9, 0.1), round(1.1, 0.6));
+}
+
+TEST_F(RoundTest, WithinTheToleranceQualityThenSizeDecide) {
+  expect_better(round(0.9, 0.3, 500), round(0.2, 0.1, 10));
+  expect_better(round(0.9, 0.3, 10), round(0.2, 0.5, 11));
+}
+
+TEST_F(RoundTest, BeyondTheGateTheNearerOneWins) {
+  expect_better(round(3, 0.5, 500), round(4, 0.5, 10));
+}
+
+TEST_F(RoundTest, TopologyGoesBeforeDistance) {
+  expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
+  Round sphere = round(9, 0.1), torus = round(0.1, 0.9);
+  for (Round* r : {&sphere, &torus}) r->verdict.topology.num_boundary_components = 1;
+  sphere.verdict.topology.boundary_euler_characteristic = 2;
+  expect_better(sphere, torus);
+}
+
+}  // namespace
+}  // namespace hexwright
