@@ -182,6 +182,30 @@ TEST(PrepareSurface, SolidInsideACavityIsKept) {
   EXPECT_TRUE(p.diagnosis.warnings.empty());
 }
 
+// Nested shells of any orientation: whichever are dropped, the region of winding number above one
+// half stays what it was. Three outward shells are one ball; alternating ones a shell with a core.
+TEST(PrepareSurface, NestedShellsKeepTheRegionInside) {
+  for (unsigned signs = 0; signs < 8; ++signs) {
+    TriMesh nested = test::unit_cube_surface();
+    for (int depth = 1; depth <= 3; ++depth) {
+      const double size = 1 - 0.25 * depth, low = (1 - size) / 2;
+      const TriMesh cube = test::unit_cube_surface();
+      append(nested, signs >> (depth - 1) & 1 ? reversed(cube) : cube, size, {low, low, low});
+    }
+    const TriMesh prepared = prepare_surface(nested, {}).mesh;
+    for (double z : {0.05, 0.2, 0.3, 0.45}) {  // one point between each two shells
+      const Vec3 p = {0.5, 0.5, z};
+      EXPECT_EQ(test::brute_winding(prepared, p) > 0.5, test::brute_winding(nested, p) > 0.5)
+          << "orientations " << signs << ", z = " << z;
+    }
+  }
+  TriMesh ball = cube_in_cube(false);
+  append(ball, test::unit_cube_surface(), 0.25, {0.375, 0.375, 0.375});
+  const auto p = prepare_surface(ball, {});
+  EXPECT_EQ(p.mesh.num_tris(), 12u);
+  EXPECT_EQ(p.diagnosis.num_hidden_parts, 2u);
+}
+
 TEST(PrepareSurface, AWallAcrossTheInsideIsIgnored) {
   TriMesh cube = test::unit_cube_surface();
   cube.tris.push_back({VertId(0), VertId(1), VertId(7)});
