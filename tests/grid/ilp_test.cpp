@@ -117,7 +117,6 @@ TEST(Ilp, TellsItsSolver) { EXPECT_EQ(ilp_solver_name().rfind("HiGHS ", 0), 0u);
 }  // namespace hexwright
 #else
 TEST(Ilp, LabellingEqualsTheFullProgramAtOneDepth) {
-  GTEST_SKIP()
-      << "needs HiGHS: run scripts/setup, then configure again";
+  GTEST_SKIP() << "needs HiGHS: run scripts/setup, then configure again";
 }
 #endif

@@ -1,7 +1,7 @@
 // Completion as an integer program: the paper's own formulation, kept as an oracle.
 //
-// In the library hexwright::ilp, built when HiGHS is found; the core library needs no solver. From an
-// installed package: find_package(hexwright COMPONENTS ilp).
+// In the library hexwright::ilp, built when HiGHS is found; the core library needs no solver. From
+// an installed package: find_package(hexwright COMPONENTS ilp).
 //
 // Based on: Pitzalis et al. 2021, section 4 (one program per depth, 308 exclusions per vertex).
 // Differs: the whole hierarchy can also be one program, which certifies how far completion is from
