@@ -28,7 +28,7 @@ CompleteResult complete_by_program(const CompleteCommand& cmd, const Grid& grid,
 #if HEXWRIGHT_HAS_ILP
   if (cmd.options.pairing != Pairing::Blocks)
     throw Error(ErrorCode::BadArgument, "--solver ilp and global go with --pairing blocks");
-  const IlpOptions options{cmd.options.balance,
+  const IlpOptions options{resolve_balance(cmd.options),
                            cmd.solver == "ilp" ? IlpScope::Depth : IlpScope::Hierarchy,
                            cmd.time_limit};
   IlpResult solved = complete_by_ilp(grid, options, context);

@@ -30,8 +30,9 @@ void run(const DualCommand& cmd, Program& program) {
   options.optimize = !cmd.no_optimize;
   if (cmd.mode == "sheets" || (cmd.mode == "auto" && find_unpaired(grid)))
     options.mode = DualMode::Sheets;
+  const Balance needed = options.mode == DualMode::Sheets ? Balance::Relaxed : Balance::Weak;
   const DualResult result = naming_file(cmd.input, [&] {
-    if (const auto issue = find_unbalanced(grid, Balance::Weak))
+    if (const auto issue = find_unbalanced(grid, needed))
       throw Error(ErrorCode::BadGeometry,
                   issue->message + "; run 'hexwright complete' on the grid first");
     return build_dual(grid, options, context);

@@ -107,9 +107,12 @@ void add_complete_options(CLI::App& cmd, CompleteOptions& options) {
               {"none", Pairing::None}},
              "How the grid is made hexmeshable");
   add_choice(cmd, "--balance", options.balance,
-             {{"weak", Balance::Weak}, {"strong", Balance::Strong}, {"relaxed", Balance::Relaxed}},
+             {{"auto", Balance::Auto},
+              {"weak", Balance::Weak},
+              {"strong", Balance::Strong},
+              {"relaxed", Balance::Relaxed}},
              "Cells sharing a face (weak) or also an edge or vertex (strong) differ by at most one "
-             "level, or by two (relaxed; for sheets)");
+             "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak");
 }
 
 void add_feature_options(CLI::App& cmd, FeatureOptions& options) {

@@ -75,6 +75,11 @@ DualResult build_once(const Grid& grid, const DualOptions& options, const Contex
 
 }  // namespace
 
+std::size_t count_dual_hexes(const Grid& grid, DualMode mode, const Context& context) {
+  Grid used_grid;
+  return build_complex(grid, mode, context, used_grid).num_hexes();
+}
+
 // Twisted corners of the domain so close together that core planes cannot keep clear of all of them
 // are the one case known that leaves inverted elements. Over roots of half the edge all corners
 // have even coordinates, and one parity avoids them all.

@@ -107,7 +107,9 @@ NestedSets complete_sets(const NestedSets& input, const CompleteOptions& options
 
 }  // namespace
 
-CompleteResult complete(const Grid& grid, const CompleteOptions& options, const Context& context) {
+CompleteResult complete(const Grid& grid, const CompleteOptions& asked, const Context& context) {
+  CompleteOptions options = asked;
+  options.balance = resolve_balance(asked);
   if (const auto issue = grid.find_problem())
     throw Error(ErrorCode::BadArgument, "complete: " + issue->message);
   const bool needs_blocks =

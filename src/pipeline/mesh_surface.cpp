@@ -10,6 +10,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/similarity.h"
+#include "hexwright/pipeline/fewest_hexes.h"
 
 #include "pipeline/round.h"
 #include "pipeline/stage_log.h"
@@ -46,8 +47,14 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
 
 /// Completes a grid, with its levels evened out where transitions cost more than they save.
 CompleteResult even_out(const RoundInput& input, const Grid& grid) {
-  return even_levels(grid, input.tree, input.options.complete, input.options.even, input.context)
-      .completed;
+  const CompleteOptions& options = input.options.complete;
+  CompleteResult evened =
+      even_levels(grid, input.tree, options, input.options.even, input.context).completed;
+  if (options.pairing != Pairing::Sheets) return evened;
+  CompleteResult fewest = complete_with_fewest_hexes(evened.grid, options, input.context);
+  fewest.report.num_input_cells = evened.report.num_input_cells;
+  fewest.report.num_split_input = evened.report.num_split_input;
+  return fewest;
 }
 
 /// Completes the a-priori grid; when the result breaks the budget, builds the grid again one level

@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};
 
@@ -32,9 +33,7 @@ Json describe_options(const MeshOptions& o) {
           {"loop_extra_levels", o.loop_extra_levels},
           {"max_cells", o.sizing.max_cells},
           {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
-          {"balance", o.complete.balance == Balance::Strong    ? "strong"
-                      : o.complete.balance == Balance::Relaxed ? "relaxed"
-                                                               : "weak"},
+          {"balance", kBalanceNames[static_cast<int>(resolve_balance(o.complete))]},
           {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
           {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
           {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},

@@ -40,4 +40,8 @@ struct DualResult {
 /// BadGeometry when the domain is not a manifold union of cubes.
 DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context);
 
+/// How many hexes build_dual() makes of the grid (without `inset`), by its topology alone: a tenth
+/// of the time. Same errors.
+std::size_t count_dual_hexes(const Grid& grid, DualMode mode, const Context& context);
+
 }  // namespace hexwright

@@ -16,7 +16,8 @@ namespace hexwright {
 enum class Balance {
   Relaxed,  ///< cells sharing a face, edge or vertex differ by at most two levels; for sheets
   Weak,     ///< face neighbours differ by at most one level
-  Strong    ///< cells sharing a face, edge or vertex differ by at most one level
+  Strong,   ///< cells sharing a face, edge or vertex differ by at most one level
+  Auto      ///< what the pairing needs: relaxed for sheets, weak for all others
 };
 
 enum class Pairing {
@@ -27,11 +28,17 @@ enum class Pairing {
 };
 
 struct CompleteOptions {
-  Balance balance = Balance::Weak;
+  Balance balance = Balance::Auto;
   Pairing pairing = Pairing::Blocks;
   bool improve =
       true;  ///< after the sweep, descend over cluster labels with the true multi-level cost
 };
+
+/// The balance that these options ask for; never Auto.
+inline Balance resolve_balance(const CompleteOptions& options) {
+  if (options.balance != Balance::Auto) return options.balance;
+  return options.pairing == Pairing::Sheets ? Balance::Relaxed : Balance::Weak;
+}
 
 /// What completion did, per depth and in all.
 struct CompleteReport {
@@ -53,7 +60,7 @@ struct CompleteResult {
 /// count. Errors: BadArgument when `grid.find_problem()`; OutOfResources past kMaxGridLevel.
 CompleteResult complete(const Grid& grid, const CompleteOptions& options, const Context& context);
 
-/// First violation of balance, with the cells' coordinates; absent when balanced.
+/// First violation of balance (not Auto), with the cells' coordinates; absent when balanced.
 std::optional<Issue> find_unbalanced(const Grid& grid, Balance balance);
 
 /// First violation of pairing: finds the block decomposition itself. Absent when paired.
