@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """Draws the figures of docs/algorithms/dual.md: the dual stage in two dimensions.
 
-Usage: draw_pillows.py OUTPUT_DIR. Writes pillow_2d.svg (the pillows around one block) and
+Usage: draw_pillows.py OUTPUT_DIR [HEXWRIGHT]. Writes pillow_2d.svg (the pillows around one block) and
 sheet_2d.svg (a sheet through a thin layer). Everything is computed: the lattice, the split nodes,
-their core lines and the closed curves around them.
+their core lines and the closed curves around them. With the program hexwright also pillow_3d.png and
+sheet_3d.png: the real meshes of such a block and of such a layer, cut open.
 """
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 UNIT = 60  # pixels per coarse cell
@@ -86,6 +89,23 @@ def draw(path, width, height, split, parity):
     figure.write(path)
 
 
+def picture(program, path, level, split):
+    """Meshes the grid of 2^level cubed cells of which `split` are split once, and draws it cut open."""
+    n = 2 ** level
+    lines = []
+    for cell in ((x, y, z) for x in range(n) for y in range(n) for z in range(n)):
+        if cell not in split:
+            lines.append("%d %d %d %d" % (level, *cell))
+            continue
+        lines += ["%d %d %d %d" % (level + 1, *(2 * c + (q >> a & 1) for a, c in enumerate(cell))) for q in range(8)]
+    with tempfile.TemporaryDirectory() as folder:
+        grid, mesh = Path(folder) / "grid.cells", Path(folder) / "mesh.vtu"
+        grid.write_text("\n".join(lines) + "\n")
+        subprocess.run([program, "dual", grid, "-o", mesh, "--quiet"], check=True)
+        subprocess.run([program, "picture", mesh, "-o", path, "--cut", "x", "--cut-at", "0.45", "--width", "700",
+                        "--height", "600", "--quiet"], check=True)
+
+
 def main() -> int:
     out = Path(sys.argv[1])
     out.mkdir(parents=True, exist_ok=True)
@@ -93,6 +113,10 @@ def main() -> int:
     draw(out / "pillow_2d.svg", 4, 4, block, (0, 0))
     layer = [(x, 1) for x in range(1, 7)]
     draw(out / "sheet_2d.svg", 8, 3, layer, (0, 0))
+    if len(sys.argv) > 2:
+        box = [(x, y, z) for x in (1, 2) for y in (1, 2) for z in (1, 2)]
+        picture(sys.argv[2], out / "pillow_3d.png", 2, set(box))
+        picture(sys.argv[2], out / "sheet_3d.png", 3, {(x, y, 3) for x in range(1, 7) for y in range(1, 7)})
     return 0
 
 
