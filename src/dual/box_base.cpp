@@ -1,3 +1,6 @@
+// In a box every lattice vertex has one, two, four or eight octants: all creases are clipped, and
+// each vertex becomes one hex between the centres of its cells, the boundary's planes taking the
+// place of cells that are missing.
 #include "dual/base_mesh.h"
 
 namespace hexwright::dual {

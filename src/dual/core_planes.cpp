@@ -1,3 +1,6 @@
+// The costs of both parities are summed per cluster, group by group and axis by axis: a node whose
+// partner across the core face is not split costs one cell cut (or nothing, where the domain ends).
+// Clusters never touch, so the cheaper parity of each is the optimum.
 #include "dual/core_planes.h"
 
 #include <bit>

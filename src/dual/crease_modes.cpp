@@ -1,3 +1,6 @@
+// A fixed point over the convex creases: what is wrapped at one end is wrapped at the other, and a
+// star in which some creases are wrapped may force its others. Creases only ever change from
+// clipped to wrapped, so the passes end.
 #include "dual/crease_modes.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Partners of all nodes are listed with the axis that cuts them and sorted; a cell that appears
+// with two axes is crossed. Sorting instead of hashing keeps the order, and so the result, fixed.
 #include "dual/crossed_cells.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Roots are kept in the same hashed sibling groups as split nodes, so that look-ups by lattice
+// point cost the same at every depth.
 #include "dual/domain.h"
 
 #include <algorithm>

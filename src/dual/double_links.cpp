@@ -1,3 +1,6 @@
+// In the link of a vertex every quad at it is an edge between the ends of two mesh edges. Two quads
+// that share two edges are two link edges with the same ends: a face between two hexes is seen from
+// both, so more than two sightings of one pair of ends give it away.
 #include "dual/double_links.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The pillow's working structure: plain arrays that only ever grow. An inserted layer redirects
+// links of older hexes but never removes one, so ids stay valid for the caps that refer to them.
 #include "dual/hex_complex.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Octants that meet at an edge or vertex only belong to different stars: each becomes a corner of
+// the mesh of its own, which is how parts of the domain that touch there stay apart.
 #include "dual/octant_star.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// Order matters: interface faces are collected, then all vertices on them split (changes are listed
+// first and applied last, as stars are read through old ids), then the layer's hexes made and
+// linked. A layer hex finds its side neighbours by turning about the interface face's edges through
+// inner hexes, so that no global search is needed.
 #include "dual/pillow.h"
 
 #include "hexwright/base/assert.h"

@@ -1,3 +1,6 @@
+// Lattice hexes sit at their lattice vertex, caps at a share of the way between the two hexes they
+// were made from; a vertex of the mesh is dual to a cell of the arrangement and takes the mean of
+// the places of that cell's corners. Regular leaves get their exact centres this way.
 #include "dual/positions.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Sums run over fixed chunks in order (base/parallel.h), so the average has the same bits for any
+// number of threads.
 #include "dual/quality_of_hex.h"
 
 #include "hexwright/base/parallel.h"

@@ -1,3 +1,5 @@
+// An open-addressing table from a parent's coordinates to the group of its split children. Cells
+// come in Morton order, so the last group answers most insertions without a look-up.
 #include "dual/split_nodes.h"
 
 #include <bit>
