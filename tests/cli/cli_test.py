@@ -191,7 +191,8 @@ class Stages(CliTest):
     def test_an_unbalanced_grid_fails_the_check_and_the_dual(self):
         lines = [f"1 {i & 1} {i >> 1 & 1} {i >> 2}" for i in range(1, 8)]
         lines += [f"2 {i & 1} {i >> 1 & 1} {i >> 2}" for i in range(0, 7)]
-        lines += [f"3 {2 + (i & 1)} {2 + (i >> 1 & 1)} {2 + (i >> 2)}" for i in range(8)]
+        lines += [f"3 {2 + (i & 1)} {2 + (i >> 1 & 1)} {2 + (i >> 2)}" for i in range(7)]
+        lines += [f"4 {6 + (i & 1)} {6 + (i >> 1 & 1)} {6 + (i >> 2)}" for i in range(8)]  # three levels at a corner
         grid = self.path / "g.cells"
         grid.write_text("\n".join(lines) + "\n")
         done = self.run_binary("check", grid, expect=1)

@@ -27,9 +27,9 @@ struct MeshOptions {
   FitOptions fit;
   JudgeOptions judge;  ///< the features' angles follow fit.features
 
-  int max_rounds = 6;                 ///< refine where the fit missed; 0 = a single pass
-  double refine_threshold = 0.85;     ///< leaves farther off than this share of the tolerance split
-  double min_quality = 0.2;           ///< least scaled Jacobian the loop is content with
+  int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
+  double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
+  double min_quality = 0.2;        ///< least scaled Jacobian the loop is content with
   /// Share of the feature length within judge.edge_tolerance of mesh edges that the loop is content
   /// with; it refines along curves that are mapped but too coarsely. 0 = not for features.
   double min_feature_share = 0.98;
