@@ -64,7 +64,7 @@ const std::array<Method, kNumMethods>& evaluated_methods() {
       {"octree_strong", "octree + strong", {Balance::Strong, Pairing::Octree}},
       {"octree_weak", "octree + weak", {Balance::Weak, Pairing::Octree}},
       {"blocks", "blocks", {Balance::Weak, Pairing::Blocks}},
-      {"sheets", "sheets", {Balance::Relaxed, Pairing::Sheets}},
+      {"sheets", "sheets", {Balance::Weak, Pairing::Sheets}},
   }};
   return kMethods;
 }
