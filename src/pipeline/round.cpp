@@ -109,6 +109,11 @@ bool is_content(const RoundInput& input, const Round& round) {
          !misses_features(input, round);
 }
 
+bool is_within_gate(const RoundInput& input, const Round& round) {
+  return round.verdict.is_valid() &&
+         max_distance(round) <= kGateFactor * input.options.sizing.tolerance;
+}
+
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
     // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.

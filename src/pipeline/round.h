@@ -36,6 +36,9 @@ Round run_round(const RoundInput& input, CompleteResult completed);
 /// Whether nothing is left to refine for.
 bool is_content(const RoundInput& input, const Round& round);
 
+/// Whether the mesh is valid and no farther off than the gate allows.
+bool is_within_gate(const RoundInput& input, const Round& round);
+
 /// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
 /// gate before beyond, within the tolerance before beyond, then quality, then features that are
 /// followed closely. Among equals the nearer one; when both are near enough, the one that follows
