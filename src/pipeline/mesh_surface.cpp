@@ -222,7 +222,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   prepared.mesh = to_unit(prepared.mesh, frame);
 
   // What the surface is like.
-  const MeshOptions options = resolve_options(given, bounding_box(prepared.mesh).diagonal());
+  MeshOptions options = resolve_options(given, bounding_box(prepared.mesh).diagonal());
   const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
                                      [&] { return SurfaceTree(std::move(prepared.mesh)); });
   const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
@@ -231,6 +231,8 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());
   result.stages.back().counts["corners"] = static_cast<double>(features.corners.size());
   const ExpectedTopology expected = find_expected_topology(tree);
+  // All of a sound surface bounds the solid: no sample need be excused.
+  if (expected.is_known) options.judge.distance.solid_only = false;
 
   // Grid, hexes, fit; again where the fit missed.
   const RoundInput input{tree, options, expected, context};

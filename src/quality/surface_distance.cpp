@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/function_ref.h"
@@ -29,12 +30,19 @@ constexpr double kSlack = 1 + 1e-9;
 /// Samples nearer than this share of the diagonal always count: only far ones are worth a test.
 constexpr double kTrustedDistance = 0.001;
 
+/// Far samples this near to one that was found to count, as a share of the diagonal, count as
+/// well: tests take long where the winding number does, on needles. Errs on the side of counting.
+constexpr double kCountingRadius = 0.004;
+/// Tests per chunk of samples; the last one's outcome holds for the rest.
+constexpr int kMaxTests = 16;
+
 struct Target {
   const SurfaceTree& tree;
   double hot_distance = 0;  // infinity when hot samples are not wanted
   // Says that a sample far from the target is right to be there.
   FunctionRef<bool(const Vec3& p, double distance)> is_excused;
   double trusted_distance = 0;
+  double counting_radius = 0;
 };
 
 /// Whether the winding number passes 1/2 nearer to the boundary's point p than any surface, at d:
@@ -74,7 +82,7 @@ class SampleMeter {
 
   void add(const Vec3& p, double weight) {
     const double d = distance_to_target(p);
-    if (d > target_.trusted_distance && target_.is_excused(p, d)) {
+    if (d > target_.trusted_distance && !counts(p, d)) {
       partial_.excused_weight += weight;
       return;
     }
@@ -89,6 +97,16 @@ class SampleMeter {
   const Partial& partial() const { return partial_; }
 
  private:
+  /// Whether a far sample counts. The tests of a meter are limited: the samples of a chunk are
+  /// neighbours, and on needles a winding number takes as long as thousands of distances.
+  bool counts(const Vec3& p, double d) {
+    const bool is_near = last_tested_ && distance(p, *last_tested_) < target_.counting_radius;
+    if ((is_near && last_counts_) || num_tests_ >= kMaxTests) return last_counts_;
+    ++num_tests_;
+    last_tested_ = p;
+    return last_counts_ = !target_.is_excused(p, d);
+  }
+
   double distance_to_target(const Vec3& p) {
     ClosestFilter filter;
     if (has_previous_) filter.max_distance = (previous_distance_ + distance(p, previous_)) * kSlack;
@@ -105,6 +123,9 @@ class SampleMeter {
   bool has_previous_ = false;
   Vec3 previous_;
   double previous_distance_ = 0;
+  std::optional<Vec3> last_tested_;
+  bool last_counts_ = true;
+  int num_tests_ = 0;
 };
 
 Partial measure(const TriMesh& sampled, const Target& target, double spacing) {
@@ -148,12 +169,14 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const auto closes_hole = [&](const Vec3& p, double d) {
     return is_closing_hole(boundary, surface, p, d);
   };
-  Partial to_mesh = measure(surface.surface(), {boundary, hot, is_off_solid, trusted}, spacing);
+  const double radius = kCountingRadius * diagonal;
+  Partial to_mesh =
+      measure(surface.surface(), {boundary, hot, is_off_solid, trusted, radius}, spacing);
   // The winding number of a closed surface changes on it only: there is no hole to close.
   const double trusted_off_surface =
       is_oriented_cycle(surface.surface()) ? std::numeric_limits<double>::infinity() : trusted;
-  const Partial to_surface =
-      measure(boundary.surface(), {surface, hot, closes_hole, trusted_off_surface}, spacing);
+  const Partial to_surface = measure(
+      boundary.surface(), {surface, hot, closes_hole, trusted_off_surface, radius}, spacing);
 
   SurfaceDistance result;
   result.max_to_mesh = max_of(to_mesh) / diagonal;
