@@ -122,7 +122,8 @@ class Sampler {
     std::array<Vec3, 27> at;
     const Vec3 half = cell.extent() * 0.5;
     for (int k = 0; k < 27; ++k) {
-      const Vec3 step = {k % 3 * half.x, k / 3 % 3 * half.y, k / 9 * half.z};
+      const int x = k % 3, y = k / 3 % 3, z = k / 9;
+      const Vec3 step = {x * half.x, y * half.y, z * half.z};
       at[k] = interpolate(map_.object, map_.locator.locate(cell.lo + step));
       image.spread.add(at[k]);
     }

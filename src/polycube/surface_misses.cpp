@@ -75,8 +75,9 @@ class CarriedBoundary {
     const auto [cell, direction] = faces_[f];
     const Box3 box = cell_box(grid_, cell);
     const int axis = direction / 2;
-    const double s = static_cast<double>(k % kSamplesPerEdge) / (kSamplesPerEdge - 1);
-    const double t = static_cast<double>(k / kSamplesPerEdge) / (kSamplesPerEdge - 1);
+    const std::size_t column = k % kSamplesPerEdge, row = k / kSamplesPerEdge;
+    const double s = static_cast<double>(column) / (kSamplesPerEdge - 1);
+    const double t = static_cast<double>(row) / (kSamplesPerEdge - 1);
     Vec3 p;
     p[axis] = direction % 2 ? box.hi[axis] : box.lo[axis];
     p[(axis + 1) % 3] = box.lo[(axis + 1) % 3] + s * box.extent()[(axis + 1) % 3];
