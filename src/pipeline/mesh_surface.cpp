@@ -25,10 +25,6 @@ constexpr int kPatience = 3;
 /// loop gets this share of its budget.
 constexpr std::size_t kDefectiveShare = 4;
 
-/// From a valid mesh within the gate, a round must not cost more than this factor in cells: misses
-/// that dense marks do not cure (along the seams of parts that overlap) would multiply the mesh.
-constexpr double kMaxGrowth = 2.5;
-
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
   options.judge.features = features_for_sizing(options.fit.features, diagonal);
@@ -115,9 +111,7 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
           result.num_rounds, num_cells, options.max_hexes, budget));
       break;
     }
-    if (is_within_gate(input, current) &&
-        static_cast<double>(num_cells) >
-            kMaxGrowth * static_cast<double>(current.grid.num_cells())) {
+    if (!is_sound && is_out_of_proportion(input, current, num_cells)) {
       input.context.warn(
           fmt::format("refinement stops after round {}: the next grid has {} cells after {}, more "
                       "than {} times "

@@ -114,6 +114,12 @@ bool is_within_gate(const RoundInput& input, const Round& round) {
          max_distance(round) <= kGateFactor * input.options.sizing.tolerance;
 }
 
+bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells) {
+  return is_within_gate(input, round) &&
+         static_cast<double>(num_next_cells) >
+             kMaxGrowth * static_cast<double>(round.grid.num_cells());
+}
+
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
     // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.

@@ -12,6 +12,12 @@ namespace hexwright {
 /// The gate of distance, as a multiple of the tolerance; see mesh_surface.h.
 constexpr double kGateFactor = 2;
 
+/// On a defective surface, from a valid mesh within the gate, a round must not cost more than this
+/// factor in cells: misses that dense marks do not cure (along the seams of parts that overlap)
+/// would multiply the mesh. On a sound one the next round may well need many times the cells of a
+/// coarse mesh that came within the gate by luck.
+constexpr double kMaxGrowth = 2.5;
+
 /// What all rounds share.
 struct RoundInput {
   const SurfaceTree& tree;
@@ -38,6 +44,9 @@ bool is_content(const RoundInput& input, const Round& round);
 
 /// Whether the mesh is valid and no farther off than the gate allows.
 bool is_within_gate(const RoundInput& input, const Round& round);
+
+/// Whether a next grid of so many cells would break kMaxGrowth.
+bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells);
 
 /// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
 /// gate before beyond, within the tolerance before beyond, then quality, then features that are

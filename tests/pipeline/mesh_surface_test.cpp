@@ -10,6 +10,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "helpers.h"
+#include "pipeline/round.h"
 #include "solids.h"
 
 namespace hexwright {
@@ -126,6 +127,22 @@ TEST(MeshSurface, RefinementGoesWhereTheFitMissed) {
                    r.verdict.distance->max_two_way());
   for (std::size_t k = 1; k < r.rounds.size(); ++k)
     EXPECT_GT(r.rounds[k].num_cells, r.rounds[k - 1].num_cells);
+}
+
+// A coarse mesh of a sphere that is within the gate, but not the tolerance: every cell on the
+// surface must split at once, so the grid multiplies.
+TEST(MeshSurface, ASoundSurfaceMayMultiplyItsGridToMeetTheTolerance) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.008;
+  options.sizing.deviation_factor = 8;
+  const MeshResult r = mesh_surface(test::unit_sphere_surface(4), options, {});
+  expect_valid(r);
+  ASSERT_GT(r.rounds.size(), 1u);
+  EXPECT_GT(r.rounds[0].max_distance, options.sizing.tolerance);
+  EXPECT_LE(r.rounds[0].max_distance, kGateFactor * options.sizing.tolerance);
+  EXPECT_GT(static_cast<double>(r.rounds[1].num_cells),
+            kMaxGrowth * static_cast<double>(r.rounds[0].num_cells));
+  EXPECT_LE(r.verdict.distance->max_two_way(), options.sizing.tolerance);
 }
 
 TEST(MeshSurface, RefinementFollowsCurvesMoreCloselyThanTheSurface) {

@@ -61,5 +61,14 @@ TEST_F(RoundTest, TopologyGoesBeforeDistance) {
   expect_better(sphere, torus);
 }
 
+TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
+  const RoundInput input{tree_, options_, expected_, context_};
+  Round near = round(1.5, 0.3), far = round(2.5, 0.3);
+  for (Round* r : {&near, &far}) r->grid.cells.resize(100);
+  EXPECT_FALSE(is_out_of_proportion(input, near, 250));
+  EXPECT_TRUE(is_out_of_proportion(input, near, 251));
+  EXPECT_FALSE(is_out_of_proportion(input, far, 100'000));
+}
+
 }  // namespace
 }  // namespace hexwright
