@@ -1,16 +1,17 @@
 // hexwright check: judges a hex mesh, alone or against its surface, or an adaptive grid.
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "hexwright/geometry/prepare_surface.h"
-#include "hexwright/grid/complete.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/quality/verdict_json.h"
 
+#include "check_grid.h"
 #include "commands.h"
 #include "options.h"
 #include "output.h"
@@ -19,39 +20,37 @@ namespace hexwright::cli {
 namespace {
 
 struct CheckCommand {
-  std::string input, surface, report;
+  std::string input, reference, report, feature_file;
   bool as_grid = false, as_json = false;
   FeatureOptions features;
+  std::optional<Balance> balance;
+  bool needs_blocks = false;
+
+  bool is_of_grid() const { return as_grid || has_extension(input, {".cells", ".htg"}); }
 };
 
-void check_grid(const CheckCommand& cmd, Program& program) {
-  const Grid grid = read_grid(cmd.input);  // throws when the cells do not tile the roots
-  Console& console = program.console;
-  console.print(
-      fmt::format("{}: {} cells, levels to {}", cmd.input, grid.num_cells(), grid.finest_level));
-  const auto strong = find_unbalanced(grid, Balance::Strong);
-  const auto weak = find_unbalanced(grid, Balance::Weak);
-  const auto unpaired = find_unpaired(grid);
-  console.print(fmt::format("  balance          {}", weak ? "none" : strong ? "weak" : "strong"));
-  console.print(fmt::format("  pairing          {}", unpaired ? "none" : "blocks"));
-  if (unpaired) console.warn(cmd.input + ": " + unpaired->message);
-  if (weak) {
-    console.fail(cmd.input + ": " + weak->message + "; run 'hexwright complete' on the grid");
-    program.exit_code = FailsGate;
+bool is_grid(const std::string& path) {
+  if (!has_extension(path, grid_extensions())) return false;
+  try {
+    return read_grid(path).num_cells() > 0;
+  } catch (const Error&) {
+    return false;
   }
 }
 
 Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
-  const Context context = program.console.start(cmd.surface);
+  const Context context = program.console.start(cmd.reference);
   JudgeOptions options;
-  if (cmd.surface.empty()) {
+  if (cmd.reference.empty()) {
     options.features = cmd.features;
     return judge(mesh, options, context);
   }
-  const TriMesh surface = load_surface(cmd.surface, program);
+  const TriMesh surface = load_surface(cmd.reference, program);
+  FeatureOptions features = cmd.features;
+  load_features(cmd.feature_file, surface, features);
   PreparedSurface prepared =
-      naming_file(cmd.surface, [&] { return prepare_surface(surface, context); });
-  options.features = features_for_sizing(cmd.features, bounding_box(prepared.mesh).diagonal());
+      naming_file(cmd.reference, [&] { return prepare_surface(surface, context); });
+  options.features = features_for_sizing(features, bounding_box(prepared.mesh).diagonal());
   return judge(mesh, SurfaceTree(std::move(prepared.mesh)), options, context);
 }
 
@@ -66,7 +65,23 @@ void check_mesh(const CheckCommand& cmd, Program& program) {
   }
   if (cmd.as_json || program.console.is_quiet)  // otherwise the text has said so
     for (const std::string& f : verdict.failures) program.console.fail(cmd.input + ": " + f);
+  if (verdict.topology.num_hanging > 0 && is_grid(cmd.input))
+    program.console.warn(cmd.input + ": it is a grid with hanging nodes: check it with --grid");
   program.exit_code = verdict.is_valid() ? Valid : FailsGate;
+}
+
+/// Balance and pairing that a grid must have to pass.
+void add_grid_demands(CLI::App& sub, CheckCommand& cmd) {
+  sub.add_option_function<std::string>(
+         "--balance",
+         [&cmd](const std::string& name) {
+           cmd.balance = name == "strong" ? Balance::Strong
+                         : name == "weak" ? Balance::Weak
+                                          : Balance::Relaxed;
+         },
+         "For a grid: fail unless it has this balance [relaxed, the least that sheets need]")
+      ->check(CLI::IsMember({"relaxed", "weak", "strong"}));
+  sub.add_flag("--blocks", cmd.needs_blocks, "For a grid: fail unless it is paired by blocks");
 }
 
 }  // namespace
@@ -76,22 +91,28 @@ void add_check_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("check", "Judge a hex mesh of any program, or a grid");
   sub->add_option("input", cmd->input, "Hex mesh (MEDIT, VTK, VTU) or grid (.cells, .htg)")
       ->required();
-  sub->add_option("surface", cmd->surface, "The surface it stands for: distances and features");
+  sub->add_option("reference", cmd->reference,
+                  "Of a mesh: the surface it stands for. Of a grid: the grid before completion, "
+                  "which it must refine");
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
   sub->add_flag("--json", cmd->as_json, "Print the verdict as JSON");
   sub->add_option("--report", cmd->report, "Write the verdict as JSON");
   add_feature_options(*sub, cmd->features);
+  add_feature_file_option(*sub, cmd->feature_file);
+  add_grid_demands(*sub, *cmd);
   add_console_options(*sub, program);
   sub->footer(
       "Exit code 0 when valid, 1 when not.\n"
       "Examples:\n"
       "  hexwright check part.vtu part.stl\n"
       "  hexwright check other.mesh --json\n"
-      "  hexwright check grid.cells");
+      "  hexwright check paired.cells grid.cells --balance weak --blocks");
   sub->callback([cmd, &program] {
-    check_outputs({cmd->report}, {cmd->input, cmd->surface});
-    if (cmd->as_grid || has_extension(cmd->input, {".cells", ".htg"}))
-      check_grid(*cmd, program);
+    check_outputs({cmd->report}, {cmd->input, cmd->reference});
+    if (cmd->is_of_grid())
+      check_grid(
+          {cmd->input, cmd->reference, cmd->report, cmd->as_json, cmd->balance, cmd->needs_blocks},
+          program);
     else
       check_mesh(*cmd, program);
   });

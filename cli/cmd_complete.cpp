@@ -44,8 +44,8 @@ CompleteResult complete_by_program(const CompleteCommand& cmd, const Grid& grid,
   static_cast<void>(grid);
   static_cast<void>(context);
   throw Error(ErrorCode::BadArgument,
-              "--solver ilp and global need HiGHS: python3 -m pip install --target build/deps "
-              "highsbox, then configure and build again");
+              "--solver ilp and global need HiGHS, which this program was built without; "
+              "scripts/setup unpacks it, then scripts/build");
 #endif
 }
 

@@ -18,13 +18,13 @@ namespace hexwright::cli {
 namespace {
 
 struct FitCommand {
-  std::string hexes, surface, output, report, picture;
+  std::string hexes, surface, features, output, report, picture;
   bool no_carve = false;
   FitOptions options;
 };
 
 void run(const FitCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface});
+  check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
   require_extension(cmd.output, hex_mesh_extensions());
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
@@ -35,6 +35,7 @@ void run(const FitCommand& cmd, Program& program) {
   });
   FitOptions options = cmd.options;
   options.do_carve = !cmd.no_carve;
+  load_features(cmd.features, surface, options.features);
   const FitResult result =
       naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
   if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
@@ -68,6 +69,7 @@ void add_fit_command(CLI::App& app, Program& program) {
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
   sub->add_flag("--no-carve", cmd->no_carve, "The mesh already stands for the object: only fit it");
   add_fit_options(*sub, cmd->options);
+  add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   add_console_options(*sub, program);

@@ -16,18 +16,19 @@ namespace hexwright::cli {
 namespace {
 
 struct GridCommand {
-  std::string input, output, report;
+  std::string input, features, output, report;
   bool no_loop = false;
   MeshOptions options;
 };
 
 void run(const GridCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report}, {cmd.input});
+  check_outputs({cmd.output, cmd.report}, {cmd.input, cmd.features});
   require_extension(cmd.output, grid_extensions());
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
+  load_features(cmd.features, surface, options.fit.features);
   const SizingResult result = naming_file(cmd.input, [&] {
     const PreparedSurface prepared = prepare_surface(surface, context);
     const double diagonal = bounding_box(prepared.mesh).diagonal();
@@ -51,6 +52,7 @@ void add_grid_command(CLI::App& app, Program& program) {
   add_sizing_options(*sub, cmd->options.sizing);
   sub->add_flag("--no-loop", cmd->no_loop, "The stricter sizing of a single pass");
   add_feature_options(*sub, cmd->options.fit.features);
+  add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write counts as JSON");
   add_console_options(*sub, program);
   sub->footer("Example:\n  hexwright grid part.stl -o part.cells --sizing thickness");

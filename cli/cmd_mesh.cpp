@@ -19,7 +19,7 @@ namespace hexwright::cli {
 namespace {
 
 struct MeshCommand {
-  std::string input, output, report, picture, grid;
+  std::string input, output, report, picture, grid, features;
   bool no_loop = false;
   MeshOptions options;
 };
@@ -34,7 +34,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 }
 
 void run(const MeshCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input});
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input, cmd.features});
   if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
   require_extension(cmd.output, hex_mesh_extensions());
@@ -42,6 +42,7 @@ void run(const MeshCommand& cmd, Program& program) {
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
+  load_features(cmd.features, surface, options.fit.features);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
@@ -88,6 +89,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       ->capture_default_str();
   add_complete_options(*sub, cmd->options.complete);
   add_fit_options(*sub, cmd->options.fit);
+  add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   sub->add_option("--save-grid", cmd->grid, "Write the completed grid (.cells, .htg, .vtu)");

@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/io/feature_io.h"
 
 namespace hexwright::cli {
 namespace {
@@ -122,6 +123,16 @@ void add_feature_options(CLI::App& cmd, FeatureOptions& options) {
          "Edges whose faces turn by more are sharp, degrees [50]")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG");
+}
+
+void add_feature_file_option(CLI::App& cmd, std::string& file) {
+  cmd.add_option("--features", file,
+                 "Your own creases, besides those by angle: OBJ with 'l' lines, or text with two "
+                 "vertex numbers (from 0) of the surface per line");
+}
+
+void load_features(const std::string& file, const TriMesh& surface, FeatureOptions& options) {
+  if (!file.empty()) options.extra_segments = read_feature_edges(file, surface);
 }
 
 void add_fit_options(CLI::App& cmd, FitOptions& options) {

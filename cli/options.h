@@ -27,6 +27,12 @@ void add_complete_options(CLI::App& cmd, CompleteOptions& options);
 /// --feature-angle.
 void add_feature_options(CLI::App& cmd, FeatureOptions& options);
 
+/// --features, a file of the user's own creases; load_features() reads it.
+void add_feature_file_option(CLI::App& cmd, std::string& file);
+
+/// Adds the creases of a feature file to the options; an empty name adds none.
+void load_features(const std::string& file, const TriMesh& surface, FeatureOptions& options);
+
 /// --side, --padding, --feature-angle.
 void add_fit_options(CLI::App& cmd, FitOptions& options);
 

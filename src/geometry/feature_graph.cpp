@@ -9,6 +9,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/exposure.h"
 
+#include "geometry/edges_along.h"
 #include "geometry/surface_edges.h"
 #include "geometry/triangle_math.h"
 
@@ -29,9 +30,10 @@ bool is_crease(const std::span<const SurfaceEdges::Side> sides, const std::vecto
   return (is_consistent ? dot(a, b) : -dot(a, b)) < min_cosine;
 }
 
-std::vector<std::uint64_t> user_keys(const TriMesh& surface, const FeatureOptions& options) {
+std::vector<std::uint64_t> user_keys(const TriMesh& surface,
+                                     std::span<const std::array<VertId, 2>> user_edges) {
   std::vector<std::uint64_t> keys;
-  for (const auto& [a, b] : options.extra_edges) {
+  for (const auto& [a, b] : user_edges) {
     for (VertId v : {a, b})
       if (!v.is_valid() || v.index() >= surface.num_verts())
         throw Error(ErrorCode::BadArgument,
@@ -72,11 +74,12 @@ std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
 /// The graph of crease edges, from which pieces are removed.
 class CreaseGraph {
  public:
-  CreaseGraph(const TriMesh& surface, const FeatureOptions& options, const SurfaceTree* tree)
+  CreaseGraph(const TriMesh& surface, const FeatureOptions& options,
+              std::span<const std::array<VertId, 2>> user_edges, const SurfaceTree* tree)
       : surface_(surface),
         min_turn_cosine_(std::cos(options.turn_angle)),
         min_length_(options.min_length),
-        user_keys_(user_keys(surface, options)),
+        user_keys_(user_keys(surface, user_edges)),
         neighbors_(surface.num_verts()) {
     const auto creases = crease_keys(surface, options.crease_angle, tree);
     std::set_union(creases.begin(), creases.end(), user_keys_.begin(), user_keys_.end(),
@@ -201,10 +204,13 @@ class CreaseGraph {
 
 FeatureGraph extract(const TriMesh& surface, const FeatureOptions& options,
                      const SurfaceTree* tree) {
-  CreaseGraph graph(surface, options, tree);
+  EdgesAlong user = find_edges_along(surface, options.extra_segments);
+  user.edges.insert(user.edges.end(), options.extra_edges.begin(), options.extra_edges.end());
+  CreaseGraph graph(surface, options, user.edges, tree);
   auto curves = graph.chain();
   for (int round = 0; round < kPruneRounds && graph.prune(curves); ++round) curves = graph.chain();
   FeatureGraph features;
+  features.num_unmatched_segments = user.num_unmatched;
   features.curves = IdVector<CurveId, FeatureCurve>(std::move(curves));
   for (const FeatureCurve& c : features.curves)
     if (!c.is_closed)

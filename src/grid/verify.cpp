@@ -1,7 +1,9 @@
-// Checks of a finished grid: balance, and the existence of a conflict-free block decomposition.
+// Checks of a finished grid: balance, the existence of a conflict-free block decomposition, and
+// that it refines the grid it was made from.
 //
-// Independent of how the grid was made: both checks start from the leaves alone.
+// Independent of how the grid was made: all checks start from the leaves alone.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -135,6 +137,13 @@ std::optional<Issue> find_unbalanced_by_two(const NestedSets& sets, const Lattic
   return std::nullopt;
 }
 
+/// Whether both lattices lie at the same place; files keep about nine digits of a frame.
+bool is_same_frame(const GridFrame& a, const GridFrame& b) {
+  constexpr double kTolRelRoot = 1e-6;
+  const double room = kTolRelRoot * a.root_size;
+  return std::abs(a.root_size - b.root_size) <= room && distance(a.origin, b.origin) <= room;
+}
+
 }  // namespace
 
 std::optional<Issue> find_unbalanced(const Grid& grid, Balance balance) {
@@ -161,6 +170,28 @@ std::optional<Issue> find_unpaired(const Grid& grid) {
   const NestedSets sets = split_sets_of(grid, domain);
   for (int d = 0; d < static_cast<int>(sets.size()); ++d)
     if (auto issue = find_unpaired_depth(sets[d], d, domain)) return issue;
+  return std::nullopt;
+}
+
+std::optional<Issue> find_coarsened(const Grid& grid, const Grid& input) {
+  check_grid(grid, "find_coarsened");
+  check_grid(input, "find_coarsened");
+  if (grid.roots != input.roots)
+    return Issue{fmt::format("its {} root cube(s) are not the {} of the input grid",
+                             grid.roots.size(), input.roots.size())};
+  if (!is_same_frame(grid.frame, input.frame))
+    return Issue{"it lies at another place or has another size than the input grid"};
+  const LatticeDomain domain(grid.roots, std::max(grid.finest_level, input.finest_level));
+  const NestedSets sets = split_sets_of(grid, domain);
+  const NestedSets needed = split_sets_of(input, domain);
+  for (int d = 0; d < static_cast<int>(needed.size()); ++d) {
+    const BrickSet present = d < static_cast<int>(sets.size()) ? sets[d] : BrickSet();
+    const auto missing = find_missing(needed[d], present);
+    if (!missing) continue;
+    // Depth by depth from the roots: the missing node's parent is split, so it is a leaf itself.
+    return Issue{fmt::format("{} is coarser than the input grid, where it is split",
+                             name_of("cell", *missing, d, domain))};
+  }
   return std::nullopt;
 }
 

@@ -45,6 +45,19 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
         static_cast<double>(sizing.splits_by_reason[r]);
 }
 
+/// The user's creases are given in the world.
+void map_to_unit(const Similarity& frame, FeatureOptions& options) {
+  for (auto& segment : options.extra_segments)
+    for (Vec3& p : segment) p = frame.to_unit(p);
+}
+
+void warn_unmatched(const FeatureGraph& features, const Context& context) {
+  if (features.num_unmatched_segments > 0)
+    context.warn(
+        fmt::format("{} of the feature edges given are no edges of the surface and are left out",
+                    features.num_unmatched_segments));
+}
+
 /// Completes a grid, with its levels evened out where transitions cost more than they save.
 CompleteResult even_out(const RoundInput& input, const Grid& grid) {
   const CompleteOptions& options = input.options.complete;
@@ -216,12 +229,15 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   prepared.mesh = to_unit(prepared.mesh, frame);
 
   // What the surface is like.
-  MeshOptions options = resolve_options(given, bounding_box(prepared.mesh).diagonal());
+  MeshOptions options = given;
+  map_to_unit(frame, options.fit.features);
+  options = resolve_options(std::move(options), bounding_box(prepared.mesh).diagonal());
   const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
                                      [&] { return SurfaceTree(std::move(prepared.mesh)); });
   const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
     return extract_features(tree, options.judge.features);
   });
+  warn_unmatched(features, context);
   result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());
   result.stages.back().counts["corners"] = static_cast<double>(features.corners.size());
   const ExpectedTopology expected = find_expected_topology(tree);

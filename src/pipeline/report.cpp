@@ -38,6 +38,7 @@ Json describe_options(const MeshOptions& o) {
           {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
           {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
           {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
+          {"feature_edges_given", o.fit.features.extra_segments.size()},
           {"max_rounds", o.max_rounds},
           {"max_hexes", o.max_hexes},
           {"max_loop_hexes", o.max_loop_hexes}};

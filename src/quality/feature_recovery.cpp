@@ -6,7 +6,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/judge.h"
 
-#include "quality/point_tree.h"
+#include "geometry/point_tree.h"
 
 namespace hexwright {
 namespace {

@@ -94,6 +94,8 @@ class BadInput(CliTest):
     def test_a_missing_file_is_named(self):
         self.check_refused("mesh", self.path / "none.obj", "-o", self.path / "a.vtu", about=r"none\.obj")
         self.check_refused("check", self.path / "none.vtu", about=r"none\.vtu")
+        self.check_refused("mesh", self.cube, "-o", self.path / "a.vtu", "--features", self.path / "none.txt",
+                           about=r"none\.txt")
         self.check_refused("complete", self.path / "none.cells", "-o", self.path / "a.cells", about=r"none\.cells")
 
     def test_a_bad_line_is_named(self):
@@ -133,6 +135,18 @@ class Mesh(CliTest):
         self.assertEqual(sum(data["sizing"]["cells_per_level"]), data["sizing"]["cells"])
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         self.run_binary("check", out, self.cube)
+
+    def test_follows_the_users_own_edges(self):
+        pairs = self.path / "pairs.txt"
+        diagonals = [(i, j) for i in range(8) for j in range(i) if bin(i ^ j).count("1") == 2]
+        pairs.write_text("".join("%d %d\n" % d for d in diagonals))  # half of them are triangles' edges
+        report = self.path / "r.json"
+        for extra in ([], ["--features", pairs]):
+            done = self.run_binary("grid", self.cube, "-o", self.path / "a.cells", "--max-level", "2", *extra)
+            done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--report", report, *COARSE, *extra)
+            length = json.loads(report.read_text())["verdict"]["features"]["length"]
+            self.assertAlmostEqual(length, 12 + (6 * 2 ** 0.5 if extra else 0), places=6)
+        self.assertRegex(done.stderr, r"6 of the feature edges given are no edges of the surface")
 
     def test_quiet_leaves_only_warnings(self):
         done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--quiet", *COARSE)
@@ -200,6 +214,30 @@ class Stages(CliTest):
         self.run_binary("dual", grid, "-o", self.path / "h.mesh", expect=3)
         self.run_binary("complete", grid, "-o", self.path / "p.cells", "--balance", "strong")
         self.assertRegex(self.run_binary("check", self.path / "p.cells").stdout, r"balance +strong")
+
+    def test_check_judges_a_grid_by_the_one_it_was_completed_from(self):
+        grid, finer, paired, sheets, report = (self.path / n for n in
+                                               ("g.cells", "f.cells", "p.vtu", "s.cells", "r.json"))
+        split = (1, 1, 1)  # one inner cell of level 2: balanced, but in no block
+        cells = [(i & 3, i >> 2 & 3, i >> 4) for i in range(64)]
+        lines = ["2 %d %d %d" % c for c in cells if c != split]
+        lines += ["3 %d %d %d" % (2 + (q & 1), 2 + (q >> 1 & 1), 2 + (q >> 2)) for q in range(8)]
+        grid.write_text("\n".join(lines) + "\n")
+        finer.write_text("\n".join("3 %d %d %d" % (i & 7, i >> 3 & 7, i >> 6) for i in range(512)) + "\n")
+        self.run_binary("complete", grid, "-o", paired, "--pairing", "blocks")
+        self.run_binary("complete", grid, "-o", sheets, "--pairing", "sheets")
+        done = self.run_binary("check", paired, grid, "--grid", "--blocks", "--balance", "weak", "--report", report)
+        self.assertIn("refines", done.stdout)
+        data = json.loads(report.read_text())
+        self.assertEqual((data["valid"], data["pairing"], data["refines_input"]), (True, "blocks", True))
+        self.assertEqual(sum(data["cells_per_level"]), data["cells"])
+        done = self.run_binary("check", paired, finer, "--grid", expect=1)
+        self.assertRegex(done.stderr, r"cell \(level \d, index \d+ \d+ \d+\) is coarser")
+        self.run_binary("check", sheets, grid)
+        done = self.run_binary("check", grid, "--blocks", "--json", expect=1)
+        self.assertFalse(json.loads(done.stdout)["valid"])
+        self.assertIn("--pairing blocks", done.stderr)
+        self.assertIn("--grid", self.run_binary("check", paired, expect=1).stderr)
 
     def test_convert_keeps_meshes_surfaces_and_grids(self):
         hexes = self.path / "h.vtu"

@@ -121,6 +121,44 @@ TEST(Features, ShortPiecesArePrunedButNotTheUsersEdges) {
   EXPECT_EQ(extract_features(sphere, pruning_below(4)).curves.size(), 2u);
 }
 
+TEST(Features, SegmentsFollowOneEdgeOrAStraightChain) {
+  // A prism of 64 sides: the corners of its top are 0 to 63, so the polygon's sides are edges.
+  const TriMesh surface = prism(64, 1);
+  const auto at = [&](int v) { return surface.positions[VertId(v)]; };
+  FeatureOptions options;
+  options.crease_angle = 3;  // none by angle
+  options.extra_segments = {{at(0), at(1)}, {at(2), at(1)}};
+  const auto features = extract_features(surface, options);
+  ASSERT_EQ(features.curves.size(), 1u);
+  EXPECT_NEAR(features.total_length(), distance(at(0), at(1)) + distance(at(1), at(2)), 1e-12);
+  EXPECT_EQ(features.num_unmatched_segments, 0u);
+
+  // No edge joins vertices that are not neighbours, and none ends beside the vertices.
+  options.extra_segments = {{at(0), at(5)}, {at(0), at(1) + Vec3{0, 0, 0.01}}};
+  const auto none = extract_features(surface, options);
+  EXPECT_TRUE(none.empty());
+  EXPECT_EQ(none.num_unmatched_segments, 2u);
+}
+
+TEST(Features, ASegmentMayRunOverSeveralEdgesInLine) {
+  // A sheet of 4 x 1 squares whose long sides consist of four edges each.
+  TriMesh sheet;
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 5; ++x) sheet.positions.push_back({double(x), double(y), 0});
+  for (int x = 0; x < 4; ++x) {
+    sheet.tris.push_back({VertId(x), VertId(x + 1), VertId(x + 6)});
+    sheet.tris.push_back({VertId(x), VertId(x + 6), VertId(x + 5)});
+  }
+  FeatureOptions options;
+  options.crease_angle = 3;
+  const double border = extract_features(sheet, options).total_length();  // open edges are creases
+  EXPECT_DOUBLE_EQ(border, 10);
+  options.extra_segments = {{Vec3{4, 1, 0}, Vec3{0, 1, 0}}, {Vec3{1, 0, 0}, Vec3{2, 1, 0}}};
+  const auto features = extract_features(sheet, options);
+  EXPECT_EQ(features.num_unmatched_segments, 0u);
+  EXPECT_NEAR(features.total_length(), border + std::sqrt(2.0), 1e-12);
+}
+
 TEST(Features, AnEdgeOutOfRangeIsRefused) {
   FeatureOptions options;
   options.extra_edges = {{VertId(0), VertId(99)}};

@@ -190,6 +190,45 @@ TEST(FindUnbalanced, NamesTheCoarseCellAndItsFineNeighbour) {
   EXPECT_NE(issue->message.find("node (level 2, index 1 0 0)"), std::string::npos);
 }
 
+/// Coarsening by its definition: some node split in the input is not split in the grid.
+bool is_coarsened_slowly(const Grid& grid, const Grid& input) {
+  const PlainSets sets = plain_split_sets(grid), needed = plain_split_sets(input);
+  for (std::size_t d = 0; d < needed.size(); ++d)
+    for (const LatticeCoord& c : needed[d])
+      if (d >= sets.size() || !sets[d].count(c)) return true;
+  return false;
+}
+
+TEST(FindCoarsened, AgreesWithTheDefinition) {
+  std::mt19937 rng(5);
+  int num_coarsened = 0, num_checked = 0;
+  for (int k = 0; k < 30; ++k)
+    for (const Roots& roots : sample_domains()) {
+      const Grid input = random_grid(rng, roots, 1 + k % 3, 0.05);
+      const Grid grid = k % 3 == 0   ? complete(input, {}, {}).grid
+                        : k % 3 == 1 ? random_grid(rng, roots, 3, 0.9)
+                                     : random_grid(rng, roots, 1 + k % 2, 0.05);
+      const bool expected = is_coarsened_slowly(grid, input);
+      EXPECT_EQ(find_coarsened(grid, input).has_value(), expected);
+      EXPECT_FALSE(k % 3 == 0 && expected) << "completed";
+      num_coarsened += expected;
+      ++num_checked;
+    }
+  EXPECT_GT(num_coarsened, num_checked / 5);
+}
+
+TEST(FindCoarsened, NamesTheCellAndRefusesOtherDomains) {
+  const Grid root = make_root_grid({});
+  const Grid fine = split_cells(split_cells(root, {1}), {0, 0, 0, 1, 0, 0, 0, 0});
+  const auto issue = find_coarsened(split_cells(root, {1}), fine);
+  ASSERT_TRUE(issue);
+  EXPECT_NE(issue->message.find("cell (level 1, index 1 1 0)"), std::string::npos)
+      << issue->message;
+  EXPECT_FALSE(find_coarsened(fine, split_cells(root, {1})));
+  EXPECT_TRUE(find_coarsened(test::unsplit_grid({{0, 0, 0}, {1, 0, 0}}), root));
+  EXPECT_TRUE(find_coarsened(make_root_grid({{1, 0, 0}, 1}), root)) << "another place";
+}
+
 TEST(BlockConflict, CountsThePapersExclusions) {
   int touching = 0, gap_one = 0;
   for (int dx = -4; dx <= 4; ++dx)

@@ -6,7 +6,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "helpers.h"
-#include "quality/point_tree.h"
+#include "geometry/point_tree.h"
 #include "quality/triangle_samples.h"
 
 namespace hexwright {

@@ -17,8 +17,12 @@ struct FeatureOptions {
   double turn_angle =
       50 * std::numbers::pi / 180;  ///< a curve turning by more has a corner there, radians
   double min_length = 0;  ///< dangling chains and loops shorter than this (world units) are pruned
-  /// Creases given by the user, as pairs of surface vertices, taken besides the angle's.
+  /// Creases given by the user, taken besides the angle's: edges as pairs of vertices of the
+  /// surface that features are extracted from ...
   std::vector<std::array<VertId, 2>> extra_edges;
+  /// ... or as straight segments in that surface's coordinates, from vertex to vertex along one
+  /// edge or several. These stay right when a surface is cleaned and renumbered.
+  std::vector<std::array<Vec3, 2>> extra_segments;
 };
 
 /// A chain of surface vertices between two corners, or a closed loop.
@@ -32,6 +36,8 @@ struct FeatureCurve {
 struct FeatureGraph {
   IdVector<CurveId, FeatureCurve> curves;
   std::vector<VertId> corners;  ///< surface vertices where curves end, meet or turn; sorted
+  /// Of FeatureOptions::extra_segments: those without edges of the surface along them.
+  std::size_t num_unmatched_segments = 0;
 
   bool empty() const { return curves.empty() && corners.empty(); }
   double total_length() const;

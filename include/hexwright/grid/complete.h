@@ -66,4 +66,9 @@ std::optional<Issue> find_unbalanced(const Grid& grid, Balance balance);
 /// First violation of pairing: finds the block decomposition itself. Absent when paired.
 std::optional<Issue> find_unpaired(const Grid& grid);
 
+/// First place where `grid` is coarser than `input`, which it should refine; absent when there is
+/// none. Grids of other root cubes, or that lie elsewhere by more than 1e-6 of a root cube, count
+/// as a violation too. Throws Error{BadArgument} when `find_problem()` of either.
+std::optional<Issue> find_coarsened(const Grid& grid, const Grid& input);
+
 }  // namespace hexwright

@@ -1,4 +1,4 @@
-#include "quality/point_tree.h"
+#include "geometry/point_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,100 @@
+// hexwright check, for grids: balance, pairing, and no coarsening against the grid before.
+#include "check_grid.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "hexwright/io/atomic_file.h"
+#include "hexwright/io/grid_io.h"
+
+namespace hexwright::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What holds of a grid, and why the rest does not.
+struct GridVerdict {
+  std::optional<Balance> balance;             ///< the strictest that holds
+  std::optional<Issue> unbalanced, unpaired;  ///< of the balance demanded; of blocks
+  std::optional<Issue> coarsened;             ///< against the grid before
+  std::vector<std::string> failures;
+};
+
+const char* name_of(std::optional<Balance> balance) {
+  if (!balance) return "none";
+  return *balance == Balance::Strong ? "strong" : *balance == Balance::Weak ? "weak" : "relaxed";
+}
+
+/// From the strictest to the weakest; each implies the next.
+constexpr std::array kBalances = {Balance::Strong, Balance::Weak, Balance::Relaxed};
+
+GridVerdict judge_grid(const Grid& grid, const GridCheck& check) {
+  GridVerdict verdict;
+  for (const Balance balance : kBalances) {
+    auto issue = find_unbalanced(grid, balance);
+    if (!issue) {
+      verdict.balance = balance;
+      break;
+    }
+    if (balance == check.balance.value_or(Balance::Relaxed)) verdict.unbalanced = std::move(issue);
+  }
+  verdict.unpaired = find_unpaired(grid);
+  if (!check.before.empty()) verdict.coarsened = find_coarsened(grid, read_grid(check.before));
+
+  if (verdict.unbalanced)
+    verdict.failures.push_back(verdict.unbalanced->message +
+                               "; run 'hexwright complete' on the grid");
+  if (check.needs_blocks && verdict.unpaired)
+    verdict.failures.push_back(verdict.unpaired->message +
+                               "; run 'hexwright complete' with --pairing blocks");
+  if (verdict.coarsened)
+    verdict.failures.push_back(check.before + ": " + verdict.coarsened->message);
+  return verdict;
+}
+
+std::string to_json(const Grid& grid, const GridCheck& check, const GridVerdict& verdict) {
+  Json json;
+  json["valid"] = verdict.failures.empty();
+  json["cells"] = grid.num_cells();
+  json["cells_per_level"] = count_cells_per_level(grid);
+  json["roots"] = grid.roots.size();
+  json["balance"] = name_of(verdict.balance);
+  json["pairing"] = verdict.unpaired ? "none" : "blocks";
+  if (verdict.unpaired) json["first_unpaired"] = verdict.unpaired->message;
+  if (!check.before.empty()) json["refines_input"] = !verdict.coarsened;
+  json["failures"] = verdict.failures;
+  return json.dump(2) + "\n";
+}
+
+void print_verdict(const Grid& grid, const GridCheck& check, const GridVerdict& verdict,
+                   Console& console) {
+  console.print(fmt::format("{}: {} cells, levels to {}, {} root cube(s)", check.input,
+                            grid.num_cells(), grid.finest_level, grid.roots.size()));
+  console.print(fmt::format("  balance          {}", name_of(verdict.balance)));
+  console.print(fmt::format("  pairing          {}", verdict.unpaired ? "none" : "blocks"));
+  if (verdict.unpaired && !check.needs_blocks)
+    console.print(fmt::format("                   not by blocks: {}", verdict.unpaired->message));
+  if (!check.before.empty() && !verdict.coarsened)
+    console.print(fmt::format("  refines          {}", check.before));
+}
+
+}  // namespace
+
+void check_grid(const GridCheck& check, Program& program) {
+  const Grid grid = read_grid(check.input);  // throws when the cells do not tile the roots
+  const GridVerdict verdict = judge_grid(grid, check);
+  const std::string json = to_json(grid, check, verdict);
+  if (!check.report.empty()) write_file_atomically(check.report, json);
+  if (check.as_json)
+    fmt::print("{}", json);
+  else
+    print_verdict(grid, check, verdict, program.console);
+  for (const std::string& f : verdict.failures) program.console.fail(check.input + ": " + f);
+  program.exit_code = verdict.failures.empty() ? Valid : FailsGate;
+}
+
+}  // namespace hexwright::cli
