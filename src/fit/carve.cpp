@@ -2,16 +2,21 @@
 #include "hexwright/fit/carve.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "fit/approach_set.h"
 #include "fit/carve_classify.h"
 #include "fit/carve_repair.h"
+#include "fit/set_topology.h"
 
 namespace hexwright {
 namespace {
 
 using fitting::HexFilling;
+using fitting::SetScene;
+using fitting::SetTopology;
 
 // Drops face-connected components of the set with less than `share` of the largest one's volume;
 // returns how many remain.
@@ -47,23 +52,6 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
       std::count_if(volume.begin(), volume.end(), [&](double x) { return x >= least; }));
 }
 
-// V - E + F of the kept set's boundary; on a manifold quad mesh E = 2 F.
-long boundary_euler_characteristic(const HexMesh& mesh, const HexNeighbors& neighbors,
-                                   const std::vector<char>& is_kept) {
-  IdVector<VertId, char> on_boundary(mesh.num_verts(), 0);
-  long num_quads = 0;
-  for (HexId h : mesh.hexes.ids()) {
-    if (!is_kept[h.index()]) continue;
-    for (int lf = 0; lf < 6; ++lf) {
-      const HexId other = neighbors.neighbor[h][static_cast<std::size_t>(lf)];
-      if (other.is_valid() && is_kept[other.index()]) continue;
-      ++num_quads;
-      for (VertId v : face_verts(mesh, {h, lf})) on_boundary[v] = 1;
-    }
-  }
-  return std::count(on_boundary.begin(), on_boundary.end(), 1) - num_quads;
-}
-
 // A hex with the surface near its centre but no boundary of the kept set at any vertex: the part or
 // gap there is thinner than the grid.
 std::vector<Vec3> find_lost_places(const HexMesh& mesh, const HexFilling& filling,
@@ -90,6 +78,56 @@ void require_positive(double keep_fraction) {
                 "keep_fraction must lie between 0 and 1; the default is 0.5");
 }
 
+// The hexes filled to more than a threshold, made manifold and rid of crumbs.
+struct KeptSet {
+  std::vector<char> in_set;
+  fitting::RepairResult repair;
+  std::size_t num_components = 0;
+  SetTopology topology;  // of its boundary
+  double threshold = 0.5;
+};
+
+KeptSet keep_above(const SetScene& scene, double threshold, const CarveOptions& options) {
+  KeptSet kept;
+  kept.threshold = threshold;
+  kept.in_set.resize(scene.mesh.num_hexes());
+  for (HexId h : scene.mesh.hexes.ids())
+    kept.in_set[h.index()] = scene.filling.fraction[h] > threshold;
+  kept.repair = fitting::repair_set(scene.mesh, scene.vert_to_hex, scene.neighbors, scene.filling,
+                                    scene.visible, kept.in_set);
+  kept.num_components = drop_small_components(scene.mesh, scene.neighbors, scene.filling,
+                                              options.min_component_share, kept.in_set);
+  kept.topology = fitting::compute_set_topology(scene.mesh, scene.neighbors, kept.in_set);
+  return kept;
+}
+
+// Components and handles, of the solid or through it, that the set has too many or too few.
+long count_defects(const SetTopology& topology, const ExpectedTopology& expected) {
+  return std::abs(static_cast<long>(topology.num_components) -
+                  static_cast<long>(expected.num_components)) +
+         std::abs(topology.euler_characteristic - expected.euler_characteristic) / 2;
+}
+
+// Walls about as thick as a hex are pierced wherever no hex is filled enough, and narrow gaps are
+// bridged. Lower thresholds keep such walls whole, higher ones keep gaps open. The first threshold
+// with the expected topology, or else the best, gives the topology; the set is then brought back to
+// the filling without changing it.
+void mend_topology(const SetScene& scene, const ExpectedTopology& expected,
+                   const CarveOptions& options, KeptSet& kept) {
+  constexpr double kThresholds[] = {0.4, 0.3, 0.2, 0.15, 0.1, 0.6, 0.7, 0.8};
+  long least = count_defects(kept.topology, expected);
+  for (double threshold : kThresholds) {
+    if (least == 0) break;
+    KeptSet other = keep_above(scene, threshold, options);
+    const long num_defects = count_defects(other.topology, expected);
+    if (num_defects >= least) continue;
+    least = num_defects;
+    kept = std::move(other);
+  }
+  if (kept.threshold != options.keep_fraction)
+    kept.repair.num_flips += fitting::approach_threshold(scene, options.keep_fraction, kept.in_set);
+}
+
 }  // namespace
 
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
@@ -102,20 +140,21 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
   context.check_cancelled();
   context.progress("carve", 0.5);
 
-  CarveResult result;
-  result.is_kept.resize(background.num_hexes());
-  for (HexId h : background.hexes.ids())
-    result.is_kept[h.index()] = filling.fraction[h] > options.keep_fraction;
-  const auto repair = fitting::repair_set(background, vert_to_hex, neighbors, filling,
-                                          options.visible_normal, result.is_kept);
-  result.num_flips = repair.num_flips;
-  result.num_bad_verts = repair.num_bad_verts;
-  result.num_components = drop_small_components(background, neighbors, filling,
-                                                options.min_component_share, result.is_kept);
-  result.lost = find_lost_places(background, filling, result.is_kept);
+  const SetScene scene{background, vert_to_hex, neighbors, filling, options.visible_normal};
+  KeptSet kept = keep_above(scene, options.keep_fraction, options);
+  const ExpectedTopology expected =
+      options.expected ? *options.expected : find_expected_topology(surface);
+  if (expected.is_known) mend_topology(scene, expected, options, kept);
 
-  result.euler_characteristic =
-      boundary_euler_characteristic(background, neighbors, result.is_kept);
+  CarveResult result;
+  result.lost = find_lost_places(background, filling, kept.in_set);
+  result.is_kept = std::move(kept.in_set);
+  result.num_flips = kept.repair.num_flips;
+  result.num_bad_verts = kept.repair.num_bad_verts;
+  result.num_components = kept.num_components;
+  result.num_boundary_components = kept.topology.num_components;
+  result.euler_characteristic = kept.topology.euler_characteristic;
+  result.seed_fraction = kept.threshold;
   context.progress("carve", 1);
   return result;
 }

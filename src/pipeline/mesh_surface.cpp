@@ -241,6 +241,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());
   result.stages.back().counts["corners"] = static_cast<double>(features.corners.size());
   const ExpectedTopology expected = find_expected_topology(tree);
+  options.fit.carve.expected = expected;
   // All of a sound surface bounds the solid: no sample need be excused.
   if (expected.is_known) options.judge.distance.solid_only = false;
 

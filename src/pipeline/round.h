@@ -3,9 +3,8 @@
 
 #include <optional>
 
+#include "hexwright/geometry/expected_topology.h"
 #include "hexwright/pipeline/mesh_surface.h"
-
-#include "pipeline/expected_topology.h"
 
 namespace hexwright {
 

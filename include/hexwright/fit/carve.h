@@ -4,9 +4,11 @@
 // "Carve".
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/geometry/expected_topology.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
 
@@ -25,6 +27,9 @@ struct CarveOptions {
       0.1;  ///< least n . d of a direction d that sees all quads around a boundary vertex
   double min_component_share =
       0.01;  ///< inside components smaller than this share of the largest are dropped
+  /// The topology that the kept set should have; found from the surface when absent. Where the
+  /// threshold above gives another, thin parts or gaps are kept that it would have pierced.
+  std::optional<ExpectedTopology> expected;
 };
 
 struct CarveResult {
@@ -33,7 +38,11 @@ struct CarveResult {
   std::size_t num_bad_verts =
       0;  ///< boundary vertices the repair could not mend (0 in a usable result)
   std::size_t num_components = 0;
+  std::size_t num_boundary_components = 0;
   long euler_characteristic = 0;  ///< of the kept set's boundary
+  /// The threshold that the set was grown or shrunk from: keep_fraction where that gave the
+  /// expected topology, or none did better.
+  double seed_fraction = 0.5;
   /// Surface points in background hexes where a part or gap thinner than the grid was lost: one per
   /// hex, in order of the hexes.
   std::vector<Vec3> lost;

@@ -1,5 +1,5 @@
 // What the surface foretells about the mesh's boundary.
-#include "pipeline/expected_topology.h"
+#include "hexwright/geometry/expected_topology.h"
 
 #include <gtest/gtest.h>
 

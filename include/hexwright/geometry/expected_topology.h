@@ -1,5 +1,7 @@
-// What the mesh's boundary should be made of, as far as the surface tells.
+// What the boundary of a solid's mesh should be made of, as far as the surface tells.
 #pragma once
+
+#include <cstddef>
 
 #include "hexwright/geometry/surface_tree.h"
 
@@ -14,6 +16,7 @@ struct ExpectedTopology {
   long genus() const { return static_cast<long>(num_components) - euler_characteristic / 2; }
 };
 
+/// Tells by winding numbers on both sides of a few triangles which components bound the solid.
 ExpectedTopology find_expected_topology(const SurfaceTree& tree);
 
 }  // namespace hexwright

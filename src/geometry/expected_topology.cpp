@@ -1,5 +1,5 @@
 // Counts the components of a surface that bound the solid, by winding numbers on both sides.
-#include "pipeline/expected_topology.h"
+#include "hexwright/geometry/expected_topology.h"
 
 #include <algorithm>
 #include <vector>

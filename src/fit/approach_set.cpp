@@ -1,0 +1,82 @@
+#include "fit/approach_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/set_topology.h"
+
+namespace hexwright::fitting {
+namespace {
+
+// Whether some axis of the hex has neither of its two faces in `faces`.
+bool is_one_thick(unsigned faces) {
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((faces >> (2 * axis) & 3u) == 0) return true;
+  return false;
+}
+
+class Approach {
+ public:
+  Approach(const SetScene& scene, double threshold, std::vector<char>& in_set)
+      : scene_(scene),
+        threshold_(threshold),
+        in_set_(in_set),
+        check_(scene.mesh, scene.vert_to_hex, scene.neighbors, true) {}
+
+  std::size_t run() {
+    constexpr int kMaxSweeps = 40;  // one takes off about one layer
+    std::size_t num_flips = 0;
+    std::vector<HexId> wrong = collect_wrong();
+    for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+      const auto rest =
+          std::remove_if(wrong.begin(), wrong.end(), [&](HexId h) { return flip(h); });
+      if (rest == wrong.end()) break;
+      num_flips += static_cast<std::size_t>(wrong.end() - rest);
+      wrong.erase(rest, wrong.end());
+    }
+    return num_flips;
+  }
+
+ private:
+  double wrongness(HexId h) const {
+    const double excess = scene_.filling.fraction[h] - threshold_;
+    return in_set_[h.index()] ? -excess : excess;
+  }
+
+  std::vector<HexId> collect_wrong() const {
+    std::vector<HexId> wrong;
+    for (HexId h : scene_.mesh.hexes.ids())
+      if (wrongness(h) > 0) wrong.push_back(h);
+    std::stable_sort(wrong.begin(), wrong.end(),
+                     [&](HexId a, HexId b) { return wrongness(a) > wrongness(b); });
+    return wrong;
+  }
+
+  // Flips the hex if that only deforms the set. The faces on the hexes of its own kind are those
+  // that carry it: in the set when it leaves, out of it when it enters.
+  bool flip(HexId h) {
+    const unsigned on_set = faces_on_set(scene_.neighbors, in_set_, h);
+    char& in = in_set_[h.index()];
+    if (!is_disc(on_set) || is_one_thick(in ? on_set : 63u & ~on_set)) return false;
+    in = !in;
+    for (VertId v : scene_.mesh.hexes[h])
+      if (check_.check(v, in_set_, scene_.visible) != SetFault::None) {
+        in = !in;
+        return false;
+      }
+    return true;
+  }
+
+  const SetScene& scene_;
+  double threshold_;
+  std::vector<char>& in_set_;
+  SetCheck check_;
+};
+
+}  // namespace
+
+std::size_t approach_threshold(const SetScene& scene, double threshold, std::vector<char>& in_set) {
+  return Approach(scene, threshold, in_set).run();
+}
+
+}  // namespace hexwright::fitting
