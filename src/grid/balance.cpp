@@ -8,15 +8,7 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kBricksPerChunk = 2048;
-
-/// Adds a word to a list whose last entry may already be the same brick.
-void append(std::vector<Brick>& bricks, BrickKey key, BrickBits bits) {
-  if (!bricks.empty() && bricks.back().key == key)
-    bricks.back().bits |= bits;
-  else
-    bricks.push_back({key, bits});
-}
+constexpr std::size_t kBricksPerChunk = 256;
 
 std::array<BrickBits, 27> grow_weak(BrickBits w) {
   std::array<BrickBits, 27> out{};
@@ -43,6 +35,36 @@ std::array<BrickBits, 27> grow_strong(BrickBits w) {
     }
   }
   return out;
+}
+
+/// Along each axis a brick's parent has an even and an odd half. The neighbours of a brick in the
+/// even half reach the parent below it, the others the one above: eight parents in all.
+constexpr int parent_slot(BrickKey key, int neighbour) {
+  int slot = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int side = (a == 0 ? neighbour % 3 : a == 1 ? neighbour / 3 % 3 : neighbour / 9) - 1;
+    const bool is_odd = key >> a & 1;
+    if (side == (is_odd ? 1 : -1)) slot |= 1 << a;
+  }
+  return slot;
+}
+
+/// The parents of a brick's nodes and of their neighbours, as far as those exist: one word per
+/// brick of the depth above that they can lie in.
+std::array<Brick, 8> parents_of_grown(const Brick& brick, int depth, Balance balance,
+                                      const LatticeDomain& domain) {
+  std::array<Brick, 8> parents{};
+  const auto grown = grow_by_neighbours(brick.bits, balance);
+  const auto keys = neighbour_keys(brick.key);
+  for (int n = 0; n < 27; ++n) {
+    if (grown[n] == 0) continue;
+    const BrickBits w = grown[n] & domain.neighbour_mask(brick.key, keys[n], depth);
+    if (w == 0) continue;
+    Brick& parent = parents[parent_slot(brick.key, n)];
+    parent.key = keys[n] >> 3;
+    parent.bits |= parent_bits(keys[n], w);
+  }
+  return parents;
 }
 
 }  // namespace
@@ -75,15 +97,9 @@ BrickSet required_above(const BrickSet& split, int depth, Balance balance,
   parallel_chunks(bricks.size(), kBricksPerChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<Brick>& list = collector.list(begin / kBricksPerChunk);
     for (std::size_t i = begin; i < end; ++i) {
-      const auto grown = grow_by_neighbours(bricks[i].bits, balance);
-      const auto keys = neighbour_keys(bricks[i].key);
-      for (int n = 0; n < 27; ++n) {
-        // Above depth 2 a brick spans several roots, and even its own nodes may not exist.
-        const bool may_leave_domain = n != 13 || depth < 2;
-        const BrickBits w =
-            grown[n] && may_leave_domain ? grown[n] & domain.mask(keys[n], depth) : grown[n];
-        if (w) append(list, keys[n] >> 3, parent_bits(keys[n], w));
-      }
+      const auto parents = parents_of_grown(bricks[i], depth, balance, domain);
+      for (const Brick& parent : parents)
+        if (parent.bits) list.push_back(parent);
     }
     normalize_bricks(list);
   });

@@ -6,7 +6,7 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kBricksPerChunk = 2048;
+constexpr std::size_t kBricksPerChunk = 256;
 
 void emit_blocks(BrickKey key, BrickBits bits, Parity parity, int depth,
                  const LatticeDomain& domain, std::vector<Brick>& out) {
@@ -14,7 +14,7 @@ void emit_blocks(BrickKey key, BrickBits bits, Parity parity, int depth,
   const auto keys = neighbour_keys(key);
   for (int n = 0; n < 27; ++n) {
     if (grown[n] == 0) continue;
-    const BrickBits w = n != 13 || depth < 2 ? grown[n] & domain.mask(keys[n], depth) : grown[n];
+    const BrickBits w = grown[n] & domain.neighbour_mask(key, keys[n], depth);
     if (w == 0) continue;
     if (!out.empty() && out.back().key == keys[n])
       out.back().bits |= w;

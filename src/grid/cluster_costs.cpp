@@ -12,7 +12,7 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kBricksPerChunk = 2048;
+constexpr std::size_t kBricksPerChunk = 256;
 
 /// A brick's word and its neighbours' along one axis, read at node offsets -1, 0 and +1.
 constexpr std::array<BrickBits, 3> read_shifted(BrickBits lower, BrickBits own, BrickBits upper,
@@ -84,7 +84,7 @@ using Neighbourhood = std::array<BrickBits, 27>;
 Neighbourhood domain_masks(BrickKey key, int depth, const LatticeDomain& domain) {
   Neighbourhood masks;
   const auto keys = neighbour_keys(key);
-  for (int n = 0; n < 27; ++n) masks[n] = domain.mask(keys[n], depth);
+  for (int n = 0; n < 27; ++n) masks[n] = domain.neighbour_mask(key, keys[n], depth);
   return masks;
 }
 

@@ -1,6 +1,7 @@
 // Cluster finding by union-find over bricks.
 #include "grid/clusters.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "hexwright/base/parallel.h"
@@ -8,7 +9,7 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kBricksPerChunk = 2048;
+constexpr std::size_t kBricksPerChunk = 256;
 
 /// Everything within two nodes of `w`, except at offset (+-2,+-2,+-2), that lands in the neighbour
 /// brick at `side`: the union of three boxes, each one node shorter along one axis.
@@ -54,19 +55,43 @@ class UnionFind {
   std::vector<std::uint32_t> parent_;
 };
 
-void make_pieces(const BrickSet& required, Clusters& out) {
-  const auto bricks = required.bricks();
-  out.brick_offset.reserve(bricks.size() + 1);
-  out.pieces.reserve(bricks.size());
-  for (std::uint32_t b = 0; b < bricks.size(); ++b) {
-    out.brick_offset.push_back(static_cast<std::uint32_t>(out.pieces.size()));
+/// Splits every brick into its connected parts; a brick's number of parts goes to the entry of
+/// brick_offset after its own.
+void make_chunk_pieces(std::span<const Brick> bricks, std::size_t begin, std::size_t end,
+                       std::vector<Piece>& pieces, std::uint32_t* num_parts) {
+  pieces.reserve(end - begin);
+  for (std::size_t b = begin; b < end; ++b) {
+    const std::size_t first = pieces.size();
     for (BrickBits rest = bricks[b].bits; rest != 0;) {
       const BrickBits component = first_component(rest);
-      out.pieces.push_back({b, 0, component});
+      pieces.push_back({static_cast<std::uint32_t>(b), 0, component});
       rest &= ~component;
     }
+    num_parts[b] = static_cast<std::uint32_t>(pieces.size() - first);
   }
-  out.brick_offset.push_back(static_cast<std::uint32_t>(out.pieces.size()));
+}
+
+void make_pieces(const BrickSet& required, Clusters& out) {
+  const auto bricks = required.bricks();
+  out.brick_offset.assign(bricks.size() + 1, 0);
+  std::vector<std::vector<Piece>> lists((bricks.size() + kBricksPerChunk - 1) / kBricksPerChunk);
+  parallel_chunks(bricks.size(), kBricksPerChunk, [&](std::size_t begin, std::size_t end) {
+    make_chunk_pieces(bricks, begin, end, lists[begin / kBricksPerChunk],
+                      out.brick_offset.data() + 1);
+  });
+  for (std::size_t b = 0; b < bricks.size(); ++b) out.brick_offset[b + 1] += out.brick_offset[b];
+  if (lists.size() == 1) {
+    out.pieces = std::move(lists.front());
+    return;
+  }
+  out.pieces.resize(out.brick_offset.back());
+  parallel_for(
+      lists.size(),
+      [&](std::size_t i) {
+        std::copy(lists[i].begin(), lists[i].end(),
+                  out.pieces.begin() + out.brick_offset[i * kBricksPerChunk]);
+      },
+      1);
 }
 
 using PiecePair = std::pair<std::uint32_t, std::uint32_t>;

@@ -11,10 +11,11 @@ namespace hexwright {
 namespace {
 
 // Work allowed beyond the sweep's own, counted in bricks, not in seconds, so that results do not
-// depend on the machine: twice the sweep's, and for small grids what takes some milliseconds. The
-// latter shrinks as grids grow, so that from about 10^5 cells on the sweep's time alone counts.
+// depend on the machine: twice the sweep's, and for small grids what takes some milliseconds. Past
+// kSmallSweep bricks (some 30,000 cells) the latter falls as the inverse of the size, so that from
+// 10^5 cells on the descent stays within three times the sweep's time.
 constexpr std::size_t kWorkFactor = 2;
-constexpr std::size_t kSmallGridWork = 60'000, kShrinkFactor = 8;
+constexpr std::size_t kSmallGridWork = 60'000, kSmallSweep = 250;
 
 /// Each cluster's conflicts, as positions in the problem's list.
 std::vector<std::vector<std::uint32_t>> conflicts_by_cluster(const DepthProblem& problem) {
@@ -114,8 +115,8 @@ void Descent::compute_bounds() {
   }
   bound_above_.assign(static_cast<std::size_t>(num_depths) + 1, 0);
   for (int d = 0; d < num_depths; ++d) bound_above_[d + 1] = bound_above_[d] + least[d];
-  budget_ = kWorkFactor * sweep_work +
-            (kSmallGridWork - std::min(kSmallGridWork, kShrinkFactor * sweep_work));
+  budget_ =
+      kWorkFactor * sweep_work + kSmallGridWork * kSmallSweep / std::max(kSmallSweep, sweep_work);
 }
 
 std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t limit) {

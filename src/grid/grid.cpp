@@ -5,6 +5,7 @@
 #include "hexwright/grid/grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -77,23 +78,22 @@ std::optional<Issue> find_root_problem(const std::vector<LatticeCoord>& roots) {
   return std::nullopt;
 }
 
+/// Whether the level exists and the corner is a multiple of the cell's size.
+bool is_on_own_lattice(const Grid& grid, const GridCell& cell) {
+  if (cell.level < 0 || cell.level > grid.finest_level) return false;
+  const std::int32_t mask = (1 << (grid.finest_level - cell.level)) - 1;
+  return ((cell.corner[0] | cell.corner[1] | cell.corner[2]) & mask) == 0;
+}
+
 std::optional<Issue> find_cell_problem(const Grid& grid, const GridCell& cell) {
   if (cell.level < 0 || cell.level > grid.finest_level)
     return Issue{fmt::format("a cell at finest-lattice corner {} {} {} has level {}, outside 0..{}",
                              cell.corner[0], cell.corner[1], cell.corner[2], int(cell.level),
                              grid.finest_level)};
-  const std::int32_t mask = (1 << (grid.finest_level - cell.level)) - 1;
-  if ((cell.corner[0] | cell.corner[1] | cell.corner[2]) & mask)
+  if (!is_on_own_lattice(grid, cell))
     return Issue{fmt::format("{}: its corner {} {} {} is not on the lattice of its level",
                              name_of(grid, cell), cell.corner[0], cell.corner[1], cell.corner[2])};
   return std::nullopt;
-}
-
-/// Position right after a cell, in the order of leaves.
-TilingPosition position_after(const Grid& grid, const TilingPosition& at, const GridCell& cell) {
-  const MortonKey root_volume = MortonKey{1} << 3 * grid.finest_level;
-  const MortonKey end = at.key + (MortonKey{1} << 3 * (grid.finest_level - cell.level));
-  return end == root_volume ? TilingPosition{at.root + 1, 0} : TilingPosition{at.root, end};
 }
 
 /// Checks one cell against the position where the one before it ended.
@@ -112,23 +112,73 @@ std::optional<Issue> find_step_problem(const Grid& grid, const GridCell& cell,
   return std::nullopt;
 }
 
+/// The corner at which the next leaf must begin, found from the leaf before it by carrying bits
+/// instead of computing Morton keys, which takes half the time.
+class LeafWalk {
+ public:
+  /// Before the first leaf.
+  explicit LeafWalk(const Grid& grid) : grid_(&grid) { enter_root(0); }
+  /// After a leaf that lies in the given root.
+  LeafWalk(const Grid& grid, const GridCell& leaf, std::size_t root) : grid_(&grid), root_(root) {
+    pass(leaf);
+  }
+
+  bool is_at(const LatticeCoord& corner) const {
+    return root_ < grid_->roots.size() && is_same_coord(corner, corner_);
+  }
+  TilingPosition position() const {
+    return root_ < grid_->roots.size() ? position_of(grid_->roots, corner_, grid_->finest_level)
+                                       : TilingPosition{root_, 0};
+  }
+
+  /// Steps over a sound leaf. Inside its root the leaf's key is the number whose octal digits are
+  /// the child numbers from the root down; adding one at the leaf's own digit carries over the
+  /// digits 7, where all three coordinates have a one.
+  void pass(const GridCell& leaf) {
+    const int own = grid_->finest_level - leaf.level;
+    LatticeCoord at = leaf.corner;
+    const auto sevens = static_cast<std::uint32_t>(at[0] & at[1] & at[2]) >> own;
+    const int digit = own + std::countr_one(sevens);
+    if (digit >= grid_->finest_level) return enter_root(root_ + 1);
+    const std::int32_t one = std::int32_t{1} << digit;
+    for (std::int32_t& x : at) x &= ~(one - 1);
+    at[2] ^= at[0] & at[1] & one;
+    at[1] ^= at[0] & one;
+    at[0] ^= one;
+    corner_ = at;
+  }
+
+ private:
+  void enter_root(std::size_t root) {
+    root_ = root;
+    if (root == grid_->roots.size()) return;
+    for (int a = 0; a < 3; ++a)
+      corner_[a] = grid_->roots[root][a] * (std::int32_t{1} << grid_->finest_level);
+  }
+
+  const Grid* grid_;
+  std::size_t root_ = 0;
+  LatticeCoord corner_ = {0, 0, 0};
+};
+
 /// First problem among the cells [begin, end), which follow a cell already known to be sound.
 std::optional<Issue> find_chunk_problem(const Grid& grid, std::size_t begin, std::size_t end) {
   const std::vector<GridCell>& cells = grid.cells.raw();
-  TilingPosition expected;
+  LeafWalk expected(grid);
   if (begin > 0) {
     const GridCell& last = cells[begin - 1];
     if (find_cell_problem(grid, last)) return std::nullopt;  // the chunk before reports it
     const TilingPosition at = position_of(grid.roots, last.corner, grid.finest_level);
     if (at.root == kNoRoot) return std::nullopt;
-    expected = position_after(grid, at, last);
+    expected = LeafWalk(grid, last, at.root);
   }
   for (std::size_t i = begin; i < end; ++i) {
-    if (auto issue = find_step_problem(grid, cells[i], expected)) return issue;
-    expected = position_after(grid, expected, cells[i]);
+    if (!expected.is_at(cells[i].corner) || !is_on_own_lattice(grid, cells[i]))
+      return find_step_problem(grid, cells[i], expected.position());
+    expected.pass(cells[i]);
   }
-  if (end < cells.size() || expected.root == grid.roots.size()) return std::nullopt;
-  return Issue{fmt::format("no cell covers {}", name_of_gap(grid, expected))};
+  if (end < cells.size() || expected.position().root == grid.roots.size()) return std::nullopt;
+  return Issue{fmt::format("no cell covers {}", name_of_gap(grid, expected.position()))};
 }
 
 std::optional<Issue> find_tiling_problem(const Grid& grid) {

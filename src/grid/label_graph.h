@@ -52,13 +52,15 @@ struct PrunedLabel {
   std::uint8_t label = 0, better = 0;
 };
 
-/// Removes labels that some other label of the same node makes useless, and then edges that forbid
-/// nothing any more; an optimal labelling stays. Returns the labels in order of removal: replacing
-/// them in that order keeps any labelling feasible.
-std::vector<PrunedLabel> reduce_graph(LabelGraph& graph);
-
 /// Connected groups of at least two nodes, each sorted.
 std::vector<std::vector<std::uint32_t>> find_groups(const LabelGraph& graph);
+
+/// Removes labels that some other label of the same node makes useless, and then edges that forbid
+/// nothing any more; an optimal labelling stays. `groups`: as find_groups() gives them. Returns the
+/// labels in an order of removal: replacing them in that order keeps any labelling feasible. Nodes
+/// outside the groups lose all but one label and are not in the list.
+std::vector<PrunedLabel> reduce_graph(LabelGraph& graph,
+                                      const std::vector<std::vector<std::uint32_t>>& groups);
 
 /// The group as a graph of its own, numbered in the group's order. `local`: each node's place in
 /// its group.

@@ -111,7 +111,7 @@ std::optional<Labelling> solve_rest(const LabelGraph& graph, const LabelMessages
   LabelGraph rest = graph;
   for (std::size_t u = 0; u < graph.num_nodes(); ++u)
     rest.allowed[u] = static_cast<LabelMask>(rest.allowed[u] & messages.allowed(u));
-  reduce_graph(rest);
+  reduce_graph(rest, find_groups(rest));
   return solve_by_elimination(rest, table_entries);
 }
 

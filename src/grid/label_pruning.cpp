@@ -4,6 +4,8 @@
 // positioning", Nature 356, 1992. Differs: pair costs are hard exclusions only.
 #include <algorithm>
 
+#include "hexwright/base/parallel.h"
+
 #include "grid/label_graph.h"
 
 namespace hexwright {
@@ -42,21 +44,21 @@ bool prune_node(LabelGraph& graph, std::uint32_t node, std::vector<PrunedLabel>&
 
 /// Drops the edges that no longer forbid anything, so that pruned groups fall apart.
 void drop_idle_edges(LabelGraph& graph) {
-  for (std::size_t u = 0; u < graph.num_nodes(); ++u)
+  parallel_for(graph.num_nodes(), [&](std::size_t u) {
     std::erase_if(graph.edges[u], [&](const LabelEdge& e) {
       for (Parity p = 0; p < kNumParities; ++p)
         if ((graph.allowed[u] >> p & 1) && (e.forbids[p] & graph.allowed[e.other])) return false;
       return true;
     });
+  });
 }
 
-}  // namespace
-
-std::vector<PrunedLabel> reduce_graph(LabelGraph& graph) {
+/// Prunes nodes that no edge joins to others, until nothing changes. `is_queued` is the whole
+/// graph's; it must be zero for these nodes, and is again afterwards.
+std::vector<PrunedLabel> prune_group(LabelGraph& graph, std::vector<std::uint32_t> queue,
+                                     std::vector<char>& is_queued) {
   std::vector<PrunedLabel> pruned;
-  std::vector<std::uint32_t> queue(graph.num_nodes());
-  std::vector<char> is_queued(graph.num_nodes(), 1);
-  for (std::uint32_t u = 0; u < graph.num_nodes(); ++u) queue[u] = u;
+  for (const std::uint32_t u : queue) is_queued[u] = 1;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const std::uint32_t u = queue[i];
     is_queued[u] = 0;
@@ -67,7 +69,27 @@ std::vector<PrunedLabel> reduce_graph(LabelGraph& graph) {
         queue.push_back(e.other);
       }
   }
+  return pruned;
+}
+
+}  // namespace
+
+std::vector<PrunedLabel> reduce_graph(LabelGraph& graph,
+                                      const std::vector<std::vector<std::uint32_t>>& groups) {
+  std::vector<char> is_queued(graph.num_nodes(), 0);
+  parallel_for(graph.num_nodes(), [&](std::size_t u) {
+    std::vector<PrunedLabel> none_to_replace;
+    if (graph.edges[u].empty()) prune_node(graph, static_cast<std::uint32_t>(u), none_to_replace);
+  });
+  // Groups are independent, and one group's labels go in the order of its own queue.
+  std::vector<std::vector<PrunedLabel>> by_group(groups.size());
+  constexpr std::size_t kGroupsPerTask = 64;
+  parallel_for(
+      groups.size(), [&](std::size_t g) { by_group[g] = prune_group(graph, groups[g], is_queued); },
+      kGroupsPerTask);
   drop_idle_edges(graph);
+  std::vector<PrunedLabel> pruned;
+  for (const auto& list : by_group) pruned.insert(pruned.end(), list.begin(), list.end());
   return pruned;
 }
 

@@ -113,9 +113,10 @@ LabelSolution solve_labels(const std::vector<LabelCosts>& costs,
   out.labels.resize(costs.size());
   out.largest_group = costs.empty() ? 0 : 1;
   LabelGraph graph = make_graph(costs, conflicts);
-  for (const auto& group : find_groups(graph))
+  const auto all_groups = find_groups(graph);
+  for (const auto& group : all_groups)
     out.largest_group = std::max(out.largest_group, group.size());
-  const std::vector<PrunedLabel> pruned = reduce_graph(graph);
+  const std::vector<PrunedLabel> pruned = reduce_graph(graph, all_groups);
 
   for (std::size_t u = 0; u < costs.size(); ++u) {
     if (!graph.edges[u].empty()) continue;

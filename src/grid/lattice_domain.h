@@ -27,6 +27,12 @@ class LatticeDomain {
   }
   /// The brick's nodes that exist.
   BrickBits mask(BrickKey key, int depth) const;
+  /// As mask(other), for a neighbour of a brick that has nodes: those of one root share its key's
+  /// leading bits, which spares most neighbours the way back to coordinates.
+  BrickBits neighbour_mask(BrickKey own, BrickKey other, int depth) const {
+    if (depth >= 2 && (own ^ other) >> 3 * (depth - 2) == 0) return ~BrickBits{0};
+    return mask(other, depth);
+  }
   /// Whether the brick and its 26 neighbours exist in full.
   bool is_interior(BrickKey key, int depth) const;
 

@@ -16,7 +16,7 @@
 namespace hexwright {
 namespace {
 
-constexpr std::size_t kBricksPerChunk = 1024;
+constexpr std::size_t kBricksPerChunk = 256;
 
 /// Image of a root, before the move to zero.
 LatticeCoord root_image(const LatticeCoord& root, const Pose& pose) {
@@ -134,18 +134,77 @@ std::uint64_t part_of_function(int image_axis, int odd, std::int64_t twice_dista
   return odd && twice_distance < 0 ? ~value + 1 : value;
 }
 
-void add_node(const LatticeCoord& node, const LatticeCoord& twice_centre, PoseSums& sums) {
-  std::array<std::array<std::array<std::uint64_t, 2>, 3>, 3> value;  // image axis, own axis, odd
-  for (int image = 0; image < 3; ++image)
-    for (int own = 0; own < 3; ++own)
+/// Both parts of the functions of all image axes at the coordinates of a brick along one own axis.
+using AxisValues = std::array<std::array<std::array<std::uint64_t, 2>, 3>, 4>;  // coord, image, odd
+
+AxisValues axis_values(std::int32_t first, std::int32_t twice_centre) {
+  AxisValues out;
+  for (int c = 0; c < 4; ++c)
+    for (int image = 0; image < 3; ++image)
       for (int odd = 0; odd < 2; ++odd)
-        value[image][own][odd] =
-            part_of_function(image, odd, 2 * std::int64_t{node[own]} + 1 - twice_centre[own]);
-  for (std::size_t k = 0; k < kAxes.size(); ++k)
-    for (int s = 0; s < kNumSigns; ++s)
-      sums[k][s] += value[0][kAxes[k][0]][s & 1] * value[1][kAxes[k][1]][s >> 1 & 1] *
-                    value[2][kAxes[k][2]][s >> 2];
+        out[c][image][odd] =
+            part_of_function(image, odd, 2 * std::int64_t{first + c} + 1 - twice_centre);
+  return out;
 }
+
+/// Image axes of the own axes x, y and z, per order of axes: the inverse of kAxes.
+constexpr auto kImageOf = [] {
+  std::array<std::array<int, 3>, kAxes.size()> out{};
+  for (std::size_t k = 0; k < kAxes.size(); ++k)
+    for (int image = 0; image < 3; ++image) out[k][kAxes[k][image]] = image;
+  return out;
+}();
+
+/// Adds up nodes by whole bricks. The products are summed row by row and plane by plane, so that a
+/// node costs six additions and the multiplications are per row and plane.
+class PoseSummer {
+ public:
+  explicit PoseSummer(const LatticeCoord& twice_centre) : twice_centre_(twice_centre) {}
+
+  void add(const Brick& brick) {
+    const LatticeCoord first = node_of_bit(brick.key, 0);
+    for (int a = 0; a < 3; ++a) {
+      if (first[a] == first_[a]) continue;  // consecutive bricks mostly share coordinates
+      first_[a] = first[a];
+      value_[a] = axis_values(first[a], twice_centre_[a]);
+    }
+    for (int z = 0; z < 4; ++z)
+      if (const auto bits = static_cast<unsigned>(brick.bits >> 16 * z & 0xffff))
+        add_plane(bits, z);
+  }
+  const PoseSums& sums() const { return sums_; }
+
+ private:
+  void add_plane(unsigned bits, int z) {
+    std::array<std::array<std::uint64_t, 4>, kAxes.size()> plane{};  // by signs of x and y
+    for (int y = 0; y < 4; ++y)
+      if (const unsigned row_bits = bits >> 4 * y & 0xf) add_row(row_bits, y, plane);
+    for (std::size_t k = 0; k < kAxes.size(); ++k) {
+      const auto [i, j, l] = kImageOf[k];
+      for (int s = 0; s < kNumSigns; ++s)
+        sums_[k][(s & 1) << i | (s >> 1 & 1) << j | (s >> 2) << l] +=
+            plane[k][s & 3] * value_[2][z][l][s >> 2];
+    }
+  }
+
+  void add_row(unsigned bits, int y,
+               std::array<std::array<std::uint64_t, 4>, kAxes.size()>& plane) const {
+    std::array<std::array<std::uint64_t, 2>, 3> row{};
+    for (; bits != 0; bits &= bits - 1) {
+      const auto& value = value_[0][std::countr_zero(bits)];
+      for (int i = 0; i < 3; ++i)
+        for (int odd = 0; odd < 2; ++odd) row[i][odd] += value[i][odd];
+    }
+    for (std::size_t k = 0; k < kAxes.size(); ++k)
+      for (int s = 0; s < 4; ++s)
+        plane[k][s] += row[kImageOf[k][0]][s & 1] * value_[1][y][kImageOf[k][1]][s >> 1];
+  }
+
+  LatticeCoord twice_centre_;
+  LatticeCoord first_ = {-1, -1, -1};  ///< where value_ begins
+  std::array<AxisValues, 3> value_{};
+  PoseSums sums_{};
+};
 
 PoseSums combined(PoseSums a, const PoseSums& b) {
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -167,11 +226,9 @@ PoseSums sums_of(const BrickSet& set, const LatticeCoord& twice_centre) {
   return parallel_reduce(
       set.num_bricks(), PoseSums{},
       [&](std::size_t begin, std::size_t end) {
-        PoseSums sums{};
-        for (const Brick& b : set.bricks().subspan(begin, end - begin))
-          for (BrickBits rest = b.bits; rest != 0; rest &= rest - 1)
-            add_node(node_of_bit(b.key, std::countr_zero(rest)), twice_centre, sums);
-        return sums;
+        PoseSummer summer(twice_centre);
+        for (const Brick& b : set.bricks().subspan(begin, end - begin)) summer.add(b);
+        return summer.sums();
       },
       combined, kBricksPerChunk);
 }
@@ -230,10 +287,10 @@ Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain) {
     for (int a = 0; a < 3; ++a) out[a] = (low[a] + high[a] + 1) * (1 << depth);
     return out;
   };
-  PoseSums root_sums{};
+  PoseSummer roots(twice_centre(0));
   for (const LatticeCoord& root : domain.shifted_roots())
-    add_node(root, twice_centre(0), root_sums);
-  keep_first(root_sums, candidates);
+    roots.add({brick_of_node(root), BrickBits{1} << bit_of_node(root)});
+  keep_first(roots.sums(), candidates);
   for (int d = 0; d < static_cast<int>(sets.size()) && candidates.size() > 1; ++d)
     keep_first(sums_of(sets[static_cast<std::size_t>(d)], twice_centre(d)), candidates);
   return make_pose(candidates.front());
