@@ -1,7 +1,8 @@
 // Balance and pairing on generated grids of growing size.
 //
 // Arguments of every case: shape (0 sphere, 1 gyroid, 2 random points), depth, threads. Counters:
-// input leaves per second, leaves in and out, peak memory of the process per output leaf.
+// input leaves per second, leaves in and out, peak memory of the process per output leaf. The cases
+// "growth" run from 10^4 to 10^8 leaves; tools/growth_table.py makes a table of them.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -51,9 +52,9 @@ const Grid& shape_grid(int shape, int depth) {
   return *grid;
 }
 
-void run(benchmark::State& state, const CompleteOptions& options) {
+void run(benchmark::State& state, const CompleteOptions& options, std::size_t threads_at = 2) {
   const Grid& grid = shape_grid(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  const ThreadLimit limit(static_cast<int>(state.range(2)));
+  const ThreadLimit limit(static_cast<int>(state.range(threads_at)));
   std::size_t num_output = 0;
   reset_peak_memory();
   for (auto _ : state) {
@@ -103,10 +104,23 @@ void sizes(benchmark::internal::Benchmark* b) {
       for (const int threads : {1, 2}) b->Args({shape, depth, threads});
   b->ArgNames({"shape", "depth", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
-/// About 1.4e8 leaves in; once, because it takes gigabytes.
-void huge(benchmark::internal::Benchmark* b) {
-  b->Args({0, 12, 2})->ArgNames({"shape", "depth", "threads"})->Iterations(1);
-  b->Unit(benchmark::kMillisecond)->UseRealTime();
+
+constexpr CompleteOptions kGrowthModes[] = {{Balance::Strong, Pairing::None, false},
+                                            {Balance::Weak, Pairing::Blocks, false},
+                                            {Balance::Weak, Pairing::Blocks, true}};
+
+/// One case per grid, mode and number of threads; the grid outermost, because large ones take as
+/// long to make as to complete, and threads innermost, so that both meet the same machine.
+void growth(benchmark::State& state) { run(state, kGrowthModes[state.range(2)], 3); }
+
+/// Five sizes per shape, about 10^4 to 10^8 leaves in (points: out).
+void growth_sizes(benchmark::internal::Benchmark* b) {
+  constexpr int kDepths[][5] = {{5, 7, 9, 10, 12}, {5, 6, 8, 9, 11}, {5, 6, 8, 9, 11}};
+  for (int shape = 0; shape < 3; ++shape)
+    for (const int depth : kDepths[shape])
+      for (int mode = 0; mode < 3; ++mode)
+        for (const int threads : {1, 2}) b->Args({shape, depth, mode, threads});
+  b->ArgNames({"shape", "depth", "mode", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
 BENCHMARK(build_octree)->Apply(sphere_sizes);
@@ -114,7 +128,7 @@ BENCHMARK(balance_strong)->Apply(sizes);
 BENCHMARK(octree_weak)->Apply(sizes);
 BENCHMARK(blocks_sweep)->Apply(sizes);
 BENCHMARK(blocks_descent)->Apply(sizes);
-BENCHMARK(blocks_sweep)->Name("huge_blocks_sweep")->Apply(huge);
+BENCHMARK(growth)->Apply(growth_sizes);
 
 }  // namespace
 }  // namespace hexwright::bench
