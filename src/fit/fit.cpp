@@ -145,7 +145,8 @@ class Fitter {
     if (!sizes.empty()) {
       const auto decile = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 10);
       std::nth_element(sizes.begin(), decile, sizes.end());
-      features.min_length = 4 * *decile;
+      const double least = 4 * *decile;
+      features.min_length = features.min_length > 0 ? std::min(features.min_length, least) : least;
     }
     features_ = extract_features(surface_, features);
   }

@@ -28,6 +28,7 @@ constexpr std::size_t kDefectiveShare = 4;
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
   options.judge.features = features_for_sizing(options.fit.features, diagonal);
+  options.fit.features.min_length = options.judge.features.min_length;
   if (options.fit.carve.side != Side::Inside) options.judge.distance.quads = JudgedQuads::Labeled;
   const double threshold = options.refine_threshold * options.sizing.tolerance;
   options.judge.distance.hot_threshold = threshold;
@@ -162,7 +163,11 @@ void map_to_world(const Similarity& frame, MeshResult& result) {
   v.quality.total_volume *= s * s * s;
   if (v.features) {
     v.features->total_length *= s;
-    for (Vec3& p : v.features->missed) p = frame.to_world(p);
+    for (CurveRecovery& c : v.features->curves) c.length *= s;
+    for (MissedFeature& m : v.features->missed) {
+      m.position = frame.to_world(m.position);
+      m.distance *= s;
+    }
   }
   if (v.distance) {
     v.distance->worst_on_surface = frame.to_world(v.distance->worst_on_surface);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pipeline/feature_misses.h"
 #include "pipeline/stage_log.h"
 
 namespace hexwright {
@@ -42,10 +43,6 @@ bool has_expected_topology(const RoundInput& input, const Round& round) {
          t.boundary_euler_characteristic == input.expected.euler_characteristic;
 }
 
-/// Share of the surface's feature length from which on its curves count as mapped: below, what is
-/// missing has no path of edges, or is noise that the fit left out, and refining along it is
-/// endless.
-constexpr double kMappedShare = 0.9;
 /// The tolerance for distances is at most so many times the one for features (the default is five):
 /// who asks for a coarse mesh does not pay for close curves.
 constexpr double kMaxFeatureFactor = 5.001;
@@ -54,13 +51,30 @@ double feature_share(const Round& round) {
   return round.verdict.features ? round.verdict.features->length_share : 1;
 }
 
-/// Whether the curves call for finer cells: mapped, but their edges do not follow them closely.
+int deepest_level(const MeshOptions& options) {
+  return std::min(options.sizing.max_level + options.loop_extra_levels, kMaxGridLevel);
+}
+
+/// Whether too little of the curves is followed.
 bool misses_features(const RoundInput& input, const Round& round) {
   const MeshOptions& options = input.options;
-  if (!round.verdict.features || feature_share(round) >= options.min_feature_share) return false;
-  if (options.sizing.tolerance > kMaxFeatureFactor * options.judge.edge_tolerance) return false;
-  return round.fit.report.curve_length_mapped >=
-         kMappedShare * round.verdict.features->total_length;
+  return round.verdict.features && feature_share(round) < options.min_feature_share &&
+         options.sizing.tolerance <= kMaxFeatureFactor * options.judge.edge_tolerance;
+}
+
+/// Share of the surface's feature length with paths in the mesh, from which on curves are refined
+/// for beyond the gate of distance too. With less, that mesh is too coarse to tell which curves the
+/// next one will follow by itself.
+constexpr double kMappedShare = 0.9;
+
+/// Where the curves call for finer cells. In unit coordinates shares of the diagonal are lengths.
+std::vector<Vec3> refinable_features(const RoundInput& input, const Round& round) {
+  if (!misses_features(input, round)) return {};
+  const bool is_mapped =
+      round.fit.report.curve_length_mapped >= kMappedShare * round.verdict.features->total_length;
+  if (!is_mapped && !is_within_gate(input, round)) return {};
+  return find_refinable_features(round.grid, *round.verdict.features,
+                                 input.options.judge.edge_tolerance, deepest_level(input.options));
 }
 
 double max_distance(const Round& round) {
@@ -98,6 +112,7 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   else
     round.verdict.failures.push_back(
         "nothing of the object was kept: its parts are thinner than the grid's cells");
+  round.refinable_features = refinable_features(input, round);
   round.record = make_record(round, clock.seconds());
   return round;
 }
@@ -106,7 +121,7 @@ bool is_content(const RoundInput& input, const Round& round) {
   return round.verdict.is_valid() && has_expected_topology(input, round) &&
          max_distance(round) <= input.options.sizing.tolerance &&
          round.verdict.quality.min_scaled_jacobian >= input.options.min_quality &&
-         !misses_features(input, round);
+         round.refinable_features.empty();
 }
 
 bool is_within_gate(const RoundInput& input, const Round& round) {
@@ -141,13 +156,9 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   if (round.verdict.distance) points = round.verdict.distance->hot;
   const auto& lost = round.fit.report.carve.lost;
   points.insert(points.end(), lost.begin(), lost.end());
-  if (misses_features(input, round)) {
-    const auto& missed = round.verdict.features->missed;
-    points.insert(points.end(), missed.begin(), missed.end());
-  }
-  const int deepest =
-      std::min(input.options.sizing.max_level + input.options.loop_extra_levels, kMaxGridLevel);
-  return mark_cells_with_points(round.grid, points, deepest);
+  const auto& features = round.refinable_features;
+  points.insert(points.end(), features.begin(), features.end());
+  return mark_cells_with_points(round.grid, points, deepest_level(input.options));
 }
 
 }  // namespace hexwright

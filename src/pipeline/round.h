@@ -31,6 +31,8 @@ struct Round {
   DualReport dual;
   FitResult fit;
   Verdict verdict;
+  /// Places on the features that finer cells can help to follow; none when enough is followed.
+  std::vector<Vec3> refinable_features;
   std::vector<StageRecord> stages;
   RoundRecord record;
 };

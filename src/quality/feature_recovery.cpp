@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/judge.h"
@@ -20,11 +21,13 @@ struct CurveSamples {
   std::vector<Vec3> points;
   std::vector<Vec3> tangents;
   std::vector<double> lengths;  // of the piece each sample stands for
+  std::vector<CurveId> curves;
 };
 
 CurveSamples sample_curves(const TriMesh& surface, const FeatureGraph& features, double step) {
   CurveSamples samples;
-  for (const FeatureCurve& curve : features.curves) {
+  for (CurveId c : features.curves.ids()) {
+    const FeatureCurve& curve = features.curves[c];
     const double length = curve.length();
     if (!(length > 0)) continue;
     const auto count = static_cast<std::size_t>(std::ceil(length / step));
@@ -34,9 +37,20 @@ CurveSamples sample_curves(const TriMesh& surface, const FeatureGraph& features,
       samples.points.push_back(p.point);
       samples.tangents.push_back(p.tangent);
       samples.lengths.push_back(piece);
+      samples.curves.push_back(c);
     }
   }
   return samples;
+}
+
+double total_turn(const TriMesh& surface, const FeatureCurve& curve) {
+  double turn = 0;
+  const auto direction = [&](std::size_t i) {
+    return normalized(surface.positions[curve.verts[i]] - surface.positions[curve.verts[i - 1]]);
+  };
+  for (std::size_t i = 2; i < curve.verts.size(); ++i)
+    turn += std::acos(std::clamp(dot(direction(i - 1), direction(i)), -1.0, 1.0));
+  return turn;
 }
 
 using Edge = std::array<VertId, 2>;
@@ -87,25 +101,53 @@ std::vector<char> find_recovered(const HexMesh& mesh, const std::vector<Edge>& e
   return is_recovered;
 }
 
-// Corners farther than the tolerance from every vertex of the edges.
-std::vector<Vec3> find_missed_corners(const HexMesh& mesh, const std::vector<Edge>& edges,
-                                      const std::vector<Vec3>& corners, double tolerance) {
+// Every vertex of the edges once.
+std::vector<Vec3> collect_points(const HexMesh& mesh, const std::vector<Edge>& edges) {
   std::vector<VertId> verts;
   for (const Edge& edge : edges) verts.insert(verts.end(), edge.begin(), edge.end());
   std::sort(verts.begin(), verts.end());
   verts.erase(std::unique(verts.begin(), verts.end()), verts.end());
   std::vector<Vec3> points;
   for (VertId v : verts) points.push_back(mesh.positions[v]);
-  const PointTree tree(std::move(points));
-  std::vector<Vec3> missed;
+  return points;
+}
+
+// Corners farther than the tolerance from every point, with the distance to the nearest.
+std::vector<MissedFeature> find_missed_corners(const std::vector<Vec3>& points,
+                                               const std::vector<Vec3>& corners, double tolerance) {
+  const PointTree tree(points);
+  std::vector<MissedFeature> missed;
   for (const Vec3& corner : corners) {
     bool is_near = false;
     tree.visit_box(inflated_box(corner, corner, tolerance), [&](std::size_t i) {
       is_near = is_near || norm_sq(tree.points()[i] - corner) <= tolerance * tolerance;
     });
-    if (!is_near) missed.push_back(corner);
+    if (is_near) continue;
+    double nearest_sq = std::numeric_limits<double>::infinity();  // few corners are missed
+    for (const Vec3& p : points) nearest_sq = std::min(nearest_sq, norm_sq(p - corner));
+    missed.push_back({corner, {}, std::sqrt(nearest_sq)});
   }
   return missed;
+}
+
+// Shares of the length, of all curves and of each; the samples without an edge become misses.
+void add_up(const CurveSamples& samples, const std::vector<char>& is_recovered,
+            FeatureRecovery& result) {
+  IdVector<CurveId, double> recovered(result.curves.size(), 0.0);
+  double length = 0;
+  for (std::size_t i = 0; i < is_recovered.size(); ++i) {
+    if (!is_recovered[i]) {
+      result.missed.push_back({samples.points[i], samples.curves[i], 0});
+      continue;
+    }
+    length += samples.lengths[i];
+    recovered[samples.curves[i]] += samples.lengths[i];
+  }
+  result.length_share = std::min(1.0, length / result.total_length);
+  for (CurveId c : recovered.ids()) {
+    CurveRecovery& curve = result.curves[c];
+    if (curve.length > 0) curve.length_share = std::min(1.0, recovered[c] / curve.length);
+  }
 }
 
 }  // namespace
@@ -115,26 +157,20 @@ FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
   FeatureRecovery result;
   result.total_length = features.total_length();
   result.num_corners = features.corners.size();
+  for (const FeatureCurve& curve : features.curves)
+    result.curves.push_back({curve.length(), total_turn(surface, curve), 1});
   if (features.empty()) return result;
   const double diagonal = bounding_box(surface).diagonal();
   const auto edges = collect_edges(collect_judged_quads(mesh, options.distance.quads));
   if (result.total_length > 0) {
     const double tolerance = options.edge_tolerance * diagonal;
     const CurveSamples samples = sample_curves(surface, features, tolerance);
-    const std::vector<char> is_recovered = find_recovered(mesh, edges, samples, tolerance);
-    double length = 0;
-    for (std::size_t i = 0; i < is_recovered.size(); ++i) {
-      if (is_recovered[i])
-        length += samples.lengths[i];
-      else
-        result.missed.push_back(samples.points[i]);
-    }
-    result.length_share = std::min(1.0, length / result.total_length);
+    add_up(samples, find_recovered(mesh, edges, samples, tolerance), result);
   }
   std::vector<Vec3> corners;
   for (VertId v : features.corners) corners.push_back(surface.positions[v]);
-  const auto missed =
-      find_missed_corners(mesh, edges, corners, options.corner_tolerance * diagonal);
+  const auto missed = find_missed_corners(collect_points(mesh, edges), corners,
+                                          options.corner_tolerance * diagonal);
   result.num_corners_recovered = corners.size() - missed.size();
   result.missed.insert(result.missed.end(), missed.begin(), missed.end());
   return result;

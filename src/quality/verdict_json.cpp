@@ -1,5 +1,8 @@
 #include "hexwright/quality/verdict_json.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 namespace hexwright {
@@ -54,11 +57,50 @@ Json to_json(const SurfaceDistance& d) {
           {"worst_on_mesh", to_json(d.worst_on_mesh)}};
 }
 
+/// Curves that are recovered to less than this share are listed.
+constexpr double kWellRecovered = 0.9;
+/// Of a list of what is missed so many are written, the worst.
+constexpr std::size_t kMaxListed = 20;
+
+/// Those with the greatest length that is not recovered.
+Json list_missed_curves(const FeatureRecovery& f) {
+  std::vector<CurveId> missed;
+  for (CurveId c : f.curves.ids())
+    if (f.curves[c].length_share < kWellRecovered) missed.push_back(c);
+  const auto lost = [&](CurveId c) { return f.curves[c].length * (1 - f.curves[c].length_share); };
+  std::stable_sort(missed.begin(), missed.end(),
+                   [&](CurveId a, CurveId b) { return lost(a) > lost(b); });
+  missed.resize(std::min(missed.size(), kMaxListed));
+  Json list = Json::array();
+  for (CurveId c : missed)
+    list.push_back({{"curve", c.value()},
+                    {"length", f.curves[c].length},
+                    {"length_share", f.curves[c].length_share}});
+  return list;
+}
+
+/// The farthest.
+Json list_missed_corners(const FeatureRecovery& f) {
+  std::vector<MissedFeature> missed;
+  for (const MissedFeature& m : f.missed)
+    if (!m.curve.is_valid()) missed.push_back(m);
+  std::stable_sort(
+      missed.begin(), missed.end(),
+      [](const MissedFeature& a, const MissedFeature& b) { return a.distance > b.distance; });
+  missed.resize(std::min(missed.size(), kMaxListed));
+  Json list = Json::array();
+  for (const MissedFeature& m : missed)
+    list.push_back({{"position", to_json(m.position)}, {"distance", m.distance}});
+  return list;
+}
+
 Json to_json(const FeatureRecovery& f) {
   return {{"length", f.total_length},
           {"length_share", f.length_share},
           {"corners", f.num_corners},
-          {"corners_recovered", f.num_corners_recovered}};
+          {"corners_recovered", f.num_corners_recovered},
+          {"missed_corners", list_missed_corners(f)},
+          {"missed_curves", list_missed_curves(f)}};
 }
 
 Json to_json(const SurfaceTopology& s) {

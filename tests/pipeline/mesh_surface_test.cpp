@@ -1,6 +1,8 @@
 // The whole pipeline on small shapes.
 #include "hexwright/pipeline/mesh_surface.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <random>
 
@@ -160,6 +162,50 @@ TEST(MeshSurface, RefinementFollowsCurvesMoreCloselyThanTheSurface) {
   EXPECT_LT(far.verdict.features->length_share, 0.98);
   EXPECT_GE(close.verdict.features->length_share, 0.98);
   EXPECT_LT(far.mesh.num_hexes(), close.mesh.num_hexes());
+}
+
+/// Edges of a surface that lead on from a vertex as straight as they can.
+std::vector<std::array<VertId, 2>> straight_edges(const TriMesh& surface, VertId from,
+                                                  Vec3 direction, int count) {
+  std::vector<std::array<VertId, 2>> edges;
+  while (static_cast<int>(edges.size()) < count) {
+    VertId best;
+    double best_cosine = -2;
+    for (const auto& tri : surface.tris)
+      for (VertId v : tri) {
+        if (v == from || std::find(tri.begin(), tri.end(), from) == tri.end()) continue;
+        const double cosine =
+            dot(normalized(surface.positions[v] - surface.positions[from]), direction);
+        if (cosine > best_cosine) best = v, best_cosine = cosine;
+      }
+    edges.push_back({from, best});
+    direction = normalized(surface.positions[best] - surface.positions[from]);
+    from = best;
+  }
+  return edges;
+}
+
+// A line drawn on a sphere, too short for the cells that the distance needs.
+TEST(MeshSurface, RefinementFindsCurvesThatHadNoPath) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.005;
+  options.max_rounds = 4;
+  const TriMesh sphere = prepare_surface(test::unit_sphere_surface(5), {}).mesh;  // welded
+  options.fit.features.extra_edges = straight_edges(sphere, VertId(0), {0, 0, 1}, 7);
+  const MeshResult found = mesh_surface(sphere, options, {});
+  options.min_feature_share = 0;
+  const MeshResult lost = mesh_surface(sphere, options, {});
+  for (const MeshResult* r : {&found, &lost}) {
+    expect_valid(*r);
+    ASSERT_EQ(r->fit.num_curves, 1u);
+    EXPECT_EQ(r->verdict.features->num_corners, 2u);
+  }
+  EXPECT_EQ(lost.fit.num_curves_mapped, 0u);
+  EXPECT_EQ(lost.fit.curves[0].reason, "shorter than the mesh resolves");
+  EXPECT_EQ(found.fit.num_curves_mapped, 1u);
+  EXPECT_GE(found.verdict.features->length_share, 0.98);
+  EXPECT_EQ(found.verdict.features->num_corners_recovered, 2u);
+  EXPECT_LT(found.mesh.num_hexes(), 3 * lost.mesh.num_hexes());  // finer along the line only
 }
 
 TEST(MeshSurface, ASinglePassMakesOneRound) {

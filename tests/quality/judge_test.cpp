@@ -54,8 +54,36 @@ TEST(Judge, AMovedEdgeIsALostFeature) {
   const double spacing = JudgeOptions{}.edge_tolerance * kDiagonal;
   EXPECT_NEAR(static_cast<double>(verdict.features->missed.size()) * spacing, 1 + 4 * 0.25 * 0.8,
               0.05);
-  for (const Vec3& p : verdict.features->missed)
+  std::size_t num_corners = 0;
+  for (const MissedFeature& m : verdict.features->missed) {
+    const Vec3& p = m.position;
     EXPECT_LE(std::max(p.x, p.y), 0.25) << p.x << ' ' << p.y << ' ' << p.z;
+    if (m.curve.is_valid()) continue;
+    ++num_corners;
+    EXPECT_NEAR(m.distance, std::sqrt(2.0) * 0.005 * kDiagonal, 1e-12);
+  }
+  EXPECT_EQ(num_corners, 2u);
+}
+
+TEST(Judge, SharesOfTheCurvesAddUpToThatOfTheLength) {
+  HexMesh mesh = cube_mesh(4);
+  for (Vec3& p : mesh.positions)
+    if (p.x == 0 && p.y == 0) p.x = p.y = 0.005 * kDiagonal;
+  const FeatureRecovery features = *judge_cube(mesh).features;
+  ASSERT_EQ(features.curves.size(), 12u);
+  double length = 0, recovered = 0;
+  int num_lost = 0, num_whole = 0;
+  for (const CurveRecovery& c : features.curves) {
+    EXPECT_NEAR(c.turn, 0, 1e-6);
+    length += c.length;
+    recovered += c.length * c.length_share;
+    num_lost += c.length_share == 0 ? 1 : 0;
+    num_whole += c.length_share == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(length, features.total_length, 1e-12);
+  EXPECT_NEAR(recovered, features.length_share * features.total_length, 1e-9);
+  EXPECT_EQ(num_lost, 1);   // the one that was chamfered
+  EXPECT_EQ(num_whole, 7);  // those that do not meet it
 }
 
 TEST(Judge, EdgesThatOnlyCrossACurveDoNotRecoverIt) {

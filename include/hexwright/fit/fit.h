@@ -27,7 +27,9 @@ struct FitOptions {
   CarveOptions carve;
   bool do_carve = true;  ///< false: the mesh already stands for the object
   Padding padding = Padding::Selective;
-  FeatureOptions features;  ///< min_length is set by the stage from the mesh's edge length
+  /// What is shorter than the mesh resolves is left out by the stage; above 0, min_length is a
+  /// length from which on curves are considered in any mesh, and reported when they do not fit.
+  FeatureOptions features;
   double snap_quality =
       0.2;  ///< boundary vertices move to their targets while the scaled Jacobian stays above
   PatchVerts patch_verts = PatchVerts::Balanced;

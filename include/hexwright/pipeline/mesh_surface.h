@@ -31,7 +31,8 @@ struct MeshOptions {
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
   double min_quality = 0.2;        ///< least scaled Jacobian the loop is content with
   /// Share of the feature length within judge.edge_tolerance of mesh edges that the loop is content
-  /// with; it refines along curves that are mapped but too coarsely. 0 = not for features.
+  /// with; it refines along curves that are followed too coarsely, and along others until their
+  /// cells are short enough for a path. 0 = not for features.
   double min_feature_share = 0.98;
   int loop_extra_levels = 3;          ///< the loop may go so much deeper than sizing.max_level
   std::size_t max_hexes = 2'000'000;  ///< budget of one background mesh

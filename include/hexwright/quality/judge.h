@@ -14,18 +14,33 @@
 
 namespace hexwright {
 
+/// How much of one feature curve the mesh's edges represent.
+struct CurveRecovery {
+  double length = 0;  ///< in the mesh's coordinates
+  double turn = 0;    ///< sum of the angles between its segments, radians
+  double length_share = 1;
+};
+
+/// A place on the surface's features that the mesh does not represent, in the mesh's coordinates.
+struct MissedFeature {
+  Vec3 position;
+  CurveId curve;        ///< of FeatureRecovery::curves; invalid: a corner
+  double distance = 0;  ///< of a corner to the nearest boundary vertex; 0 on a curve
+};
+
 /// How much of the surface's sharp features the mesh's edges and vertices represent.
 struct FeatureRecovery {
   double total_length = 0;  ///< of the surface's feature curves, world units
   /// Share of it within edge_tolerance of a boundary edge of the mesh that runs along it, that is
   /// at no more than 30 degrees.
   double length_share = 1;
+  IdVector<CurveId, CurveRecovery> curves;  ///< the same of each curve
   std::size_t num_corners = 0;
   std::size_t num_corners_recovered =
       0;  ///< within corner_tolerance of a mesh vertex on the boundary
-  /// Points every edge_tolerance along the length that is not represented, and the corners that are
-  /// not recovered; in the mesh's coordinates.
-  std::vector<Vec3> missed;
+  /// Points every edge_tolerance along the length that is not represented, and then the corners
+  /// that are not recovered.
+  std::vector<MissedFeature> missed;
 };
 
 struct JudgeOptions {
