@@ -36,20 +36,36 @@ std::vector<Component> collect_components(const TriMesh& surface, std::size_t co
 
 enum class Exposure { Bounding, Hidden, Mixed };
 
+/// Triangles at even steps of the component's area: slivers, whose neighbourhood is thinner than
+/// any step off the surface (along the edge of a blade), are sampled for their area's worth only.
+std::vector<TriId> sample_by_area(const TriMesh& surface, const std::vector<TriId>& tris) {
+  constexpr int kNumSamples = 24;
+  std::vector<double> area_before = {0};  // the sum up to each triangle
+  for (TriId t : tris) {
+    const auto p = surface.corners(t);
+    area_before.push_back(area_before.back() + norm(cross(p[1] - p[0], p[2] - p[0])));
+  }
+  std::vector<TriId> samples;
+  for (int i = 0; i < kNumSamples; ++i) {
+    const double share = (i + 0.5) / kNumSamples * area_before.back();
+    const auto after = std::upper_bound(area_before.begin() + 1, area_before.end() - 1, share);
+    samples.push_back(tris[static_cast<std::size_t>(after - area_before.begin()) - 1]);
+  }
+  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  return samples;
+}
+
 /// Whether the component separates inside from outside, judged at a few of its triangles.
 Exposure find_exposure(const SurfaceTree& tree, const Component& component) {
-  constexpr std::size_t kNumSamples = 24;
   const double step = 1e-5 * tree.box().diagonal();
-  const std::size_t stride = std::max<std::size_t>(1, component.tris.size() / kNumSamples);
-  std::size_t num_samples = 0, num_bounding = 0;
-  for (std::size_t i = 0; i < component.tris.size(); i += stride) {
-    const TriId t = component.tris[i];
+  const std::vector<TriId> samples = sample_by_area(tree.surface(), component.tris);
+  std::size_t num_bounding = 0;
+  for (TriId t : samples) {
     const auto p = tree.surface().corners(t);
     const Vec3 center = (p[0] + p[1] + p[2]) / 3, n = tree.normal(t) * step;
-    ++num_samples;
     num_bounding += tree.is_inside(center - n) != tree.is_inside(center + n);
   }
-  if (num_bounding == num_samples) return Exposure::Bounding;
+  if (num_bounding == samples.size()) return Exposure::Bounding;
   return num_bounding == 0 ? Exposure::Hidden : Exposure::Mixed;
 }
 
@@ -62,7 +78,10 @@ ExpectedTopology find_expected_topology(const SurfaceTree& tree) {
   for (const Component& c : collect_components(tree.surface(), topology.num_components)) {
     const Exposure exposure = find_exposure(tree, c);
     if (exposure == Exposure::Mixed) return {};
-    if (exposure == Exposure::Hidden) continue;
+    if (exposure == Exposure::Hidden) {
+      ++expected.num_hidden;
+      continue;
+    }
     ++expected.num_components;
     expected.euler_characteristic += c.euler_characteristic();
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "hexwright/base/vec3.h"
 
@@ -57,14 +58,41 @@ inline Vec3 closest_offset(const TriangleData& t, const Vec3& ap) {
   return t.ab * (vb * inverse) + t.ac * (vc * inverse);
 }
 
-/// Half the solid angle (in -pi .. pi) of triangle a, b, c seen from the origin; positive when the
-/// origin is behind it.
-inline double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = norm(a), lb = norm(b), lc = norm(c);
-  const double numerator = det(a, b, c);
-  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  // In the triangle's own plane the angle jumps: both one-sided limits average to zero.
-  return numerator == 0 ? 0 : std::atan2(numerator, denominator);
-}
+/// Sums half the solid angles of triangles a, b, c seen from the origin, each in -pi .. pi and
+/// positive when the origin is behind the triangle. Half an angle is the argument of a complex
+/// number (denominator + i numerator), and arguments add up when numbers are multiplied: one arc
+/// tangent in the end serves all triangles, which would take half of the time. Turns past +-pi are
+/// counted.
+class HalfAngleSum {
+ public:
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double la = norm(a), lb = norm(b), lc = norm(c);
+    const double numerator = det(a, b, c);
+    // In the triangle's own plane the angle jumps: both one-sided limits average to zero.
+    if (numerator == 0) return;
+    const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    const double scale = 1 / (std::abs(numerator) + std::abs(denominator));
+    multiply(denominator * scale, numerator * scale);
+  }
+  double value() const { return 2 * std::numbers::pi * turns_ + std::atan2(im_, re_); }
+
+ private:
+  void multiply(double re, double im) {
+    const double new_re = re_ * re - im_ * im, new_im = re_ * im + im_ * re;
+    // An angle in 0 .. pi takes one that is not negative past pi, or leaves it not negative.
+    if (im > 0 && im_ >= 0 && new_im < 0) ++turns_;
+    if (im < 0 && im_ < 0 && new_im >= 0) --turns_;
+    re_ = new_re;
+    im_ = new_im;
+    // Factors have lengths in 0.7 .. 1: long products must not vanish.
+    if (std::abs(re_) + std::abs(im_) < 1e-100) {
+      re_ *= 1e100;
+      im_ *= 1e100;
+    }
+  }
+
+  double re_ = 1, im_ = 0;
+  int turns_ = 0;
+};
 
 }  // namespace hexwright

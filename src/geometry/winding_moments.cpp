@@ -95,15 +95,13 @@ Double2 far_field(const WindingNode::Pair& pair, const Double2 d[3], Double2 dis
 
 /// Van Oosterom, Strackee, "The solid angle of a plane triangle", IEEE Transactions on Biomedical
 /// Engineering 30(2), 1983.
-double exact_half_angles(const std::vector<TriangleData>& slots, int first, int count,
-                         const Vec3& p) {
-  double sum = 0;
+void add_exact(HalfAngleSum& sum, const std::vector<TriangleData>& slots, int first, int count,
+               const Vec3& p) {
   for (int i = first; i < first + count; ++i) {
     const TriangleData& t = slots[static_cast<std::size_t>(i)];
     const Vec3 a = t.a - p;
-    sum += half_solid_angle(a, a + t.ab, a + t.ac);
+    sum.add(a, a + t.ab, a + t.ac);
   }
-  return sum;
 }
 
 }  // namespace
@@ -120,7 +118,8 @@ double evaluate_winding(const TriangleBvh& bvh, const std::vector<WindingNode>& 
                         const std::vector<TriangleData>& slots, const Vec3& p, double accuracy) {
   if (nodes.empty()) return 0;
   const Double2 accuracy_sq = splat(accuracy * accuracy);
-  double half_angle = 0, angle = 0;  // exact and expanded parts
+  HalfAngleSum exact;
+  double expanded = 0;
   int stack[3 * kMaxBvhDepth + 4];
   int top = 0;
   stack[top++] = 0;
@@ -134,18 +133,18 @@ double evaluate_winding(const TriangleBvh& bvh, const std::vector<WindingNode>& 
       const Double2 distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
       const auto is_far = distance_sq > accuracy_sq * pair.radius_sq;
       const Double2 far = is_far ? far_field(pair, d, distance_sq) : splat(0.0);
-      angle += far[0] + far[1];
+      expanded += far[0] + far[1];
       for (int i = 0; i < 2; ++i) {
         const int k = 2 * half + i;
         if (is_far[i]) continue;
         if (node.is_leaf(k))
-          half_angle += exact_half_angles(slots, node.leaf_first(k), node.leaf_count(k), p);
+          add_exact(exact, slots, node.leaf_first(k), node.leaf_count(k), p);
         else
           stack[top++] = node.child[k];
       }
     }
   }
-  return (2 * half_angle + angle) / (4 * std::numbers::pi);
+  return (2 * exact.value() + expanded) / (4 * std::numbers::pi);
 }
 
 }  // namespace hexwright

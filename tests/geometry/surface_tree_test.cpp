@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_soup.h"
+#include "geometry/triangle_math.h"
 #include "helpers.h"
 
 namespace hexwright {
@@ -144,6 +145,46 @@ TEST(SurfaceTree, InsideIsExactForAClosedSurface) {
     if (std::abs(norm(p) - 1) < 0.01) continue;  // the facets lie up to 0.5% inside
     EXPECT_EQ(sphere.is_inside(p), norm(p) < 1);
   }
+}
+
+// Products of complex numbers against a sum of arc tangents, over many turns of both signs.
+TEST(HalfAngleSum, MatchesASumOfArcTangentsOverManyTurns) {
+  std::mt19937_64 random(41);
+  for (const int bias : {-1, 0, 1}) {
+    HalfAngleSum sum;
+    double expected = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 a = random_point(random, 1), b = random_point(random, 1);
+      Vec3 c = random_point(random, 1);
+      const double volume = det(a, b, c);
+      if (bias != 0 && volume * bias < 0) c = -c;  // all angles of one sign: hundreds of turns
+      sum.add(a, b, c);
+      const double la = norm(a), lb = norm(b), lc = norm(c);
+      expected +=
+          std::atan2(det(a, b, c), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    EXPECT_NEAR(sum.value(), expected, 1e-9);
+    if (bias != 0) {
+      EXPECT_GT(bias * expected, 100);
+    }
+  }
+}
+
+// Seen from the middle of a hundred copies of a sphere, every copy counts.
+TEST(SurfaceTree, WindingNumbersCountManyTurns) {
+  const TriMesh sphere = test::unit_sphere_surface(1);
+  TriMesh many;
+  for (int copy = 0; copy < 100; ++copy) {
+    const auto base = static_cast<std::int32_t>(many.num_verts());
+    for (const Vec3& p : sphere.positions) many.positions.push_back(p * (1 + 0.01 * copy));
+    for (auto tri : sphere.tris) {
+      for (VertId& v : tri) v = VertId(v.value() + base);
+      many.tris.push_back(tri);
+    }
+  }
+  const SurfaceTree tree(many);
+  EXPECT_NEAR(tree.winding_number({0.01, 0.02, 0.03}, 1e6), 100, 1e-9);
+  EXPECT_NEAR(tree.winding_number({3, 0.02, 0.03}, 1e6), 0, 1e-9);
 }
 
 }  // namespace

@@ -12,7 +12,10 @@ namespace hexwright {
 struct ExpectedTopology {
   bool is_known = false;
   std::size_t num_components = 0;  ///< of the boundary
+  std::size_t num_hidden = 0;      ///< components of the surface that lie inside the solid
   long euler_characteristic = 0;   ///< of the boundary
+  /// Every triangle separates inside from outside.
+  bool is_all_boundary() const { return is_known && num_hidden == 0; }
   long genus() const { return static_cast<long>(num_components) - euler_characteristic / 2; }
 };
 
