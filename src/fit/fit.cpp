@@ -87,7 +87,7 @@ class Fitter {
         tree_(surface.surface()),
         options_(options),
         context_(context),
-        clock_(context, report_.seconds) {}
+        clock_(context, report_.seconds, report_.processor_seconds) {}
 
   FitResult run(const HexMesh& background) {
     clock_.run("check input", 0.0, [&] { require_valid(background); });

@@ -10,6 +10,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/similarity.h"
+#include "hexwright/grid/rescale.h"
 #include "hexwright/pipeline/fewest_hexes.h"
 
 #include "pipeline/round.h"
@@ -59,11 +60,13 @@ void warn_unmatched(const FeatureGraph& features, const Context& context) {
                     features.num_unmatched_segments));
 }
 
-/// Completes a grid, with its levels evened out where transitions cost more than they save.
-CompleteResult even_out(const RoundInput& input, const Grid& grid) {
+/// Completes a grid, with its levels evened out where transitions cost more than they save, unless
+/// they are as even as they should be.
+CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even = false) {
   const CompleteOptions& options = input.options.complete;
-  CompleteResult evened =
-      even_levels(grid, input.tree, options, input.options.even, input.context).completed;
+  EvenOptions even = input.options.even;
+  if (is_even) even.transition_cost = 0;
+  CompleteResult evened = even_levels(grid, input.tree, options, even, input.context).completed;
   if (options.pairing != Pairing::Sheets) return evened;
   CompleteResult fewest = complete_with_fewest_hexes(evened.grid, options, input.context);
   fewest.report.num_input_cells = evened.report.num_input_cells;
@@ -100,6 +103,37 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
   }
 }
 
+/// Leaves that the surface may pass, and those that are meshed: cells elsewhere are carved away.
+std::vector<char> find_needed_leaves(const RoundInput& input, const Grid& grid) {
+  std::vector<char> is_needed(grid.num_cells(), 1);
+  if (input.options.fit.carve.side != Side::Inside) return is_needed;
+  parallel_for(
+      grid.num_cells(),
+      [&](std::size_t i) {
+        const Box3 box = cell_box(grid, CellId(i));
+        ClosestFilter filter;
+        filter.max_distance = 0.5 * box.diagonal();
+        is_needed[i] =
+            input.tree.closest(box.center(), filter) || input.tree.is_inside(box.center());
+      },
+      64);
+  return is_needed;
+}
+
+/// The grid for the next round: leaves that hold a miss split, or, where the mean distance alone is
+/// missed, all of them a little smaller. Absent when there is nothing to split.
+std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const GridFrame& least,
+                              RoundRecord& record) {
+  if (const auto scale = scale_for_mean(input, round)) {
+    record.scale = *scale;
+    return rescale_grid(round.grid, *scale, least.root_size, find_needed_leaves(input, round.grid));
+  }
+  const std::vector<char> marks = mark_misses(input, round);
+  record.num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+  if (record.num_marked == 0) return {};
+  return split_cells(round.grid, marks);
+}
+
 /// Fits, measures, splits leaves that hold a miss, and repeats while that is called for and
 /// affordable. Returns the best round.
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
@@ -112,11 +146,11 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
   while (true) {
     result.rounds.push_back(current.record);
     if (result.num_rounds >= options.max_rounds || is_content(input, current)) break;
-    const std::vector<char> marks = mark_misses(input, current);
-    const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-    result.rounds.back().num_marked = num_marked;
-    if (num_marked == 0) break;
-    CompleteResult next = even_out(input, split_cells(current.grid, marks));
+    const std::optional<Grid> finer =
+        next_grid(input, current, result.sizing.grid.frame, result.rounds.back());
+    if (!finer) break;
+    const bool is_split = result.rounds.back().num_marked > 0;
+    CompleteResult next = even_out(input, *finer, !is_split);
     const std::size_t num_cells = next.grid.num_cells();
     if (num_cells > options.max_hexes || total_hexes + num_cells > budget) {
       input.context.warn(fmt::format(
@@ -125,7 +159,7 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
           result.num_rounds, num_cells, options.max_hexes, budget));
       break;
     }
-    if (!is_sound && is_out_of_proportion(input, current, num_cells)) {
+    if (!is_sound && is_split && is_out_of_proportion(input, current, num_cells)) {
       input.context.warn(
           fmt::format("refinement stops after round {}: the next grid has {} cells after {}, more "
                       "than {} times "

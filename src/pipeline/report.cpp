@@ -39,6 +39,7 @@ Json describe_options(const MeshOptions& o) {
           {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
           {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
           {"feature_edges_given", o.fit.features.extra_segments.size()},
+          {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
           {"max_hexes", o.max_hexes},
           {"max_loop_hexes", o.max_loop_hexes}};
@@ -107,6 +108,7 @@ Json describe_fit(const FitReport& f) {
         {{"position", {m.position.x, m.position.y, m.position.z}}, {"distance", m.distance}});
   }
   for (const auto& [pass, seconds] : f.seconds) fit["seconds"][pass] = seconds;
+  for (const auto& [pass, seconds] : f.processor_seconds) fit["processor_seconds"][pass] = seconds;
   return fit;
 }
 
@@ -130,6 +132,7 @@ Json describe_rounds(const MeshResult& r) {
                       {"components", q.num_components},
                       {"genus", q.genus},
                       {"marked_cells", q.num_marked},
+                      {"scale", q.scale},
                       {"seconds", q.seconds}});
   return rounds;
 }

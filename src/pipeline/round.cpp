@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "pipeline/feature_misses.h"
 #include "pipeline/stage_log.h"
@@ -81,6 +82,15 @@ double max_distance(const Round& round) {
   return round.verdict.distance ? round.verdict.distance->max_two_way() : 1;
 }
 
+double mean_distance(const Round& round) {
+  return round.verdict.distance ? round.verdict.distance->mean_two_way() : 1;
+}
+
+bool misses_mean(const RoundInput& input, const Round& round) {
+  const double goal = mean_goal(input.options);
+  return goal > 0 && mean_distance(round) > goal;
+}
+
 }  // namespace
 
 Round run_round(const RoundInput& input, CompleteResult completed) {
@@ -117,11 +127,25 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   return round;
 }
 
-bool is_content(const RoundInput& input, const Round& round) {
+namespace {
+
+/// The mean falls with the square of the cells' size; aim a little below the goal, for it is an
+/// average over shapes that meet the lattice as chance has it.
+constexpr double kScaleMargin = 0.98;
+constexpr double kLeastScale = 0.6;  // of one step; the next round sees how far it led
+
+/// Whether there is nothing to refine for but the distances.
+bool is_content_but_for_distance(const RoundInput& input, const Round& round) {
   return round.verdict.is_valid() && has_expected_topology(input, round) &&
-         max_distance(round) <= input.options.sizing.tolerance &&
          round.verdict.quality.min_scaled_jacobian >= input.options.min_quality &&
          round.refinable_features.empty();
+}
+
+}  // namespace
+
+bool is_content(const RoundInput& input, const Round& round) {
+  return is_content_but_for_distance(input, round) && !misses_mean(input, round) &&
+         max_distance(round) <= input.options.sizing.tolerance;
 }
 
 bool is_within_gate(const RoundInput& input, const Round& round) {
@@ -138,17 +162,26 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
     // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.
-    return std::array<bool, 6>{r.verdict.is_valid(),
+    return std::array<bool, 7>{r.verdict.is_valid(),
                                has_expected_topology(input, r),
                                max_distance(r) <= kGateFactor * input.options.sizing.tolerance,
                                max_distance(r) <= input.options.sizing.tolerance,
                                r.verdict.quality.min_scaled_jacobian >= input.options.min_quality,
-                               !misses_features(input, r)};
+                               !misses_features(input, r),
+                               !misses_mean(input, r)};
   };
   if (rank(a) != rank(b)) return rank(a) > rank(b);
   if (max_distance(a) > input.options.sizing.tolerance) return max_distance(a) < max_distance(b);
   if (misses_features(input, a)) return feature_share(a) > feature_share(b);
+  if (misses_mean(input, a)) return mean_distance(a) < mean_distance(b);
   return a.fit.mesh.num_hexes() < b.fit.mesh.num_hexes();
+}
+
+std::optional<double> scale_for_mean(const RoundInput& input, const Round& round) {
+  if (!is_content_but_for_distance(input, round) || !misses_mean(input, round)) return {};
+  const double goal_share = mean_goal(input.options) / mean_distance(round);
+  if (max_distance(round) * goal_share > input.options.sizing.tolerance) return {};
+  return std::max(kLeastScale, kScaleMargin * std::sqrt(goal_share));
 }
 
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {

@@ -40,6 +40,11 @@ struct Round {
 /// Runs the stages on an already completed grid.
 Round run_round(const RoundInput& input, CompleteResult completed);
 
+/// The mean two-way distance the loop is content with, a share of the diagonal; 0 = any.
+inline double mean_goal(const MeshOptions& options) {
+  return options.mean_share * options.sizing.tolerance;
+}
+
 /// Whether nothing is left to refine for.
 bool is_content(const RoundInput& input, const Round& round);
 
@@ -51,9 +56,14 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
 
 /// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
 /// gate before beyond, within the tolerance before beyond, then quality, then features that are
-/// followed closely. Among equals the nearer one; when both are near enough, the one that follows
-/// more of its features, and when both follow enough, the smaller one.
+/// followed closely, then the mean distance within its share. Among equals the nearer one; when
+/// both are near enough, the one that follows more of its features; when both follow enough, the
+/// one nearer in the mean, and when both are near enough in that, the smaller one.
 bool is_better(const RoundInput& input, const Round& a, const Round& b);
+
+/// How much smaller all cells must become for the mean distance to reach its goal, when nothing else
+/// is missed that this would not mend.
+std::optional<double> scale_for_mean(const RoundInput& input, const Round& round);
 
 /// Leaves of the completed grid that hold points the fit missed, of the surface or of its features.
 std::vector<char> mark_misses(const RoundInput& input, const Round& round);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "helpers.h"
 
 namespace hexwright {
@@ -51,6 +53,46 @@ TEST_F(RoundTest, WithinTheToleranceQualityThenSizeDecide) {
 
 TEST_F(RoundTest, BeyondTheGateTheNearerOneWins) {
   expect_better(round(3, 0.5, 500), round(4, 0.5, 10));
+}
+
+TEST_F(RoundTest, WithinTheToleranceTheMeanComesLast) {
+  Round coarse = round(0.9, 0.3, 10), fine = round(0.9, 0.3, 500), poor = round(0.9, 0.1, 10);
+  coarse.verdict.distance->mean_to_mesh = 1.1 * mean_goal(options_);
+  fine.verdict.distance->mean_to_surface = 0.9 * mean_goal(options_);
+  expect_better(fine, coarse);
+  expect_better(coarse, poor);
+  Round finer = fine;
+  finer.verdict.distance->mean_to_surface = 0.1 * mean_goal(options_);
+  finer.fit.mesh.hexes.resize(600);
+  expect_better(fine, finer);  // near enough: the smaller one
+  options_.mean_share = 0;
+  expect_better(coarse, fine);
+}
+
+TEST_F(RoundTest, AMeanAboveItsShareIsScaledAway) {
+  const RoundInput input{tree_, options_, expected_, context_};
+  Round r = round(0.5, 0.3);
+  EXPECT_TRUE(is_content(input, r));
+  EXPECT_FALSE(scale_for_mean(input, r));
+  r.verdict.distance->mean_to_mesh = 1.5 * mean_goal(options_);
+  EXPECT_FALSE(is_content(input, r));
+  const auto scale = scale_for_mean(input, r);
+  ASSERT_TRUE(scale);
+  EXPECT_LT(*scale, std::sqrt(1 / 1.5));
+  EXPECT_GT(*scale, 0.9 * std::sqrt(1 / 1.5));
+  // A mean of any size is approached in steps that a grid can make.
+  r.verdict.distance->mean_to_mesh = 100 * mean_goal(options_);
+  EXPECT_GT(*scale_for_mean(input, r), 0.5);
+}
+
+TEST_F(RoundTest, ScalingWaitsForWhatItDoesNotMend) {
+  const RoundInput input{tree_, options_, expected_, context_};
+  Round slightly = round(1.2, 0.3), far = round(2, 0.3), poor = round(0.5, 0.1);
+  for (Round* r : {&slightly, &far, &poor})
+    r->verdict.distance->mean_to_mesh = 1.5 * mean_goal(options_);
+  EXPECT_TRUE(scale_for_mean(input, slightly));  // 1.2 / 1.5 of the tolerance afterwards
+  EXPECT_FALSE(scale_for_mean(input, far));
+  EXPECT_FALSE(scale_for_mean(input, poor));
 }
 
 TEST_F(RoundTest, TopologyGoesBeforeDistance) {

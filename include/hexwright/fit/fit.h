@@ -60,7 +60,8 @@ struct FitReport {
                              ///< target, worst first
   std::vector<HexId> unproven;  ///< hexes of the result whose Jacobian is positive at the corners
                                 ///< but not proven positive everywhere inside
-  std::vector<std::pair<std::string, double>> seconds;  ///< per pass
+  std::vector<std::pair<std::string, double>> seconds;            ///< per pass, by the clock
+  std::vector<std::pair<std::string, double>> processor_seconds;  ///< per pass, of all threads
 };
 
 struct FitResult {

@@ -29,7 +29,10 @@ struct MeshOptions {
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
-  double min_quality = 0.2;        ///< least scaled Jacobian the loop is content with
+  /// The mean two-way distance that the loop is content with, as a share of the tolerance: where
+  /// it alone is missed all cells become a little smaller. 0 = the maximum alone counts.
+  double mean_share = 0.06;
+  double min_quality = 0.2;  ///< least scaled Jacobian the loop is content with
   /// Share of the feature length within judge.edge_tolerance of mesh edges that the loop is content
   /// with; it refines along curves that are followed too coarsely, and along others until their
   /// cells are short enough for a path. 0 = not for features.
@@ -62,6 +65,7 @@ struct RoundRecord {
   std::size_t num_components = 0;
   long genus = 0;
   std::size_t num_marked = 0;  ///< leaves split for the next round
+  double scale = 1;            ///< of all cells for the next round
   double seconds = 0;
 };
 
