@@ -120,6 +120,7 @@ TEST(MeshSurface, RefinementGoesWhereTheFitMissed) {
   options.sizing.tolerance = 0.006;
   options.sizing.deviation_factor = 8;  // far too coarse a start
   options.max_rounds = 6;
+  options.mean_share = 0;  // the maximum alone decides
   const MeshResult r = mesh_surface(test::unit_sphere_surface(5), options, {});
   expect_valid(r);
   ASSERT_GT(r.num_rounds, 0);
@@ -129,6 +130,29 @@ TEST(MeshSurface, RefinementGoesWhereTheFitMissed) {
                    r.verdict.distance->max_two_way());
   for (std::size_t k = 1; k < r.rounds.size(); ++k)
     EXPECT_GT(r.rounds[k].num_cells, r.rounds[k - 1].num_cells);
+}
+
+// All quads of a sphere err alike: no cell stands out, all of them shrink.
+TEST(MeshSurface, AMeanAboveItsShareShrinksAllCells) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.01;
+  options.max_rounds = 4;
+  const TriMesh sphere = test::unit_sphere_surface(5);
+  options.mean_share = 0;
+  const MeshResult any = mesh_surface(sphere, options, {});
+  expect_valid(any);
+  options.mean_share = 0.8 * any.verdict.distance->mean_two_way() / options.sizing.tolerance;
+  const MeshResult close = mesh_surface(sphere, options, {});
+  expect_valid(close);
+  EXPECT_LE(close.verdict.distance->max_two_way(), options.sizing.tolerance);
+  EXPECT_LE(close.verdict.distance->mean_two_way(), options.mean_share * options.sizing.tolerance);
+  EXPECT_TRUE(std::any_of(close.rounds.begin(), close.rounds.end(),
+                          [](const RoundRecord& r) { return r.scale < 1 && r.num_marked == 0; }));
+  // Less than a further level would cost.
+  EXPECT_LT(close.mesh.num_hexes(), 3 * any.mesh.num_hexes());
+  // The finer grid lies around the same place.
+  const Vec3 center = close.grid.frame.origin + 0.5 * close.grid.frame.root_size * Vec3{1, 1, 1};
+  EXPECT_LT(norm(center - bounding_box(sphere).center()), 1e-9);
 }
 
 // A coarse mesh of a sphere that is within the gate, but not the tolerance: every cell on the
@@ -151,6 +175,7 @@ TEST(MeshSurface, RefinementFollowsCurvesMoreCloselyThanTheSurface) {
   MeshOptions options = coarse();
   options.sizing.tolerance = 0.005;
   options.max_rounds = 4;
+  options.mean_share = 0;
   const TriMesh cylinder = test::cylinder_surface(0, 0.35, 0, 1, 96);
   const MeshResult close = mesh_surface(cylinder, options, {});
   options.min_feature_share = 0;  // the distance alone decides
