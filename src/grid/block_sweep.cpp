@@ -6,6 +6,14 @@
 #include "grid/balance.h"
 
 namespace hexwright {
+namespace {
+
+void solve(DepthProblem& problem) {
+  problem.conflicts = find_conflicts(problem.required, problem.clusters);
+  problem.solution = solve_labels(problem.costs, problem.conflicts);
+}
+
+}  // namespace
 
 BrickSet BlockSweep::required(int depth, const BrickSet& split_below) const {
   if (depth + 1 == num_depths()) return input_[depth];
@@ -17,9 +25,22 @@ DepthProblem BlockSweep::pose(BrickSet required, int depth) const {
   out.required = std::move(required);
   out.clusters = find_clusters(out.required);
   out.costs = block_costs(out.required, out.clusters, depth, domain_);
-  out.conflicts = find_conflicts(out.required, out.clusters);
-  out.solution = solve_labels(out.costs, out.conflicts);
+  solve(out);
   return out;
+}
+
+DepthProblem BlockSweep::pose(BrickSet required, int depth, ClusterCostCache& cache) const {
+  DepthProblem out;
+  out.required = std::move(required);
+  out.clusters = find_clusters(out.required);
+  out.costs = cache.costs(out.required, out.clusters, depth, domain_);
+  solve(out);
+  return out;
+}
+
+BrickSet BlockSweep::required_by(const BrickSet& nodes, Parity parity, int depth) const {
+  return required_above(blocks_of_parity(nodes, parity, depth, domain_), depth, balance_, domain_,
+                        BrickSet());
 }
 
 std::int64_t BlockSweep::least_cost(const BrickSet& required, int depth) const {

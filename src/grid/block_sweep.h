@@ -38,6 +38,8 @@ class BlockSweep {
   BrickSet required(int depth, const BrickSet& split_below) const;
 
   DepthProblem pose(BrickSet required, int depth) const;
+  /// The same, with costs from the cache where it knows them.
+  DepthProblem pose(BrickSet required, int depth, ClusterCostCache& cache) const;
 
   /// What the nodes' clusters cost at least at this depth, each by itself.
   std::int64_t least_cost(const BrickSet& required, int depth) const;
@@ -47,6 +49,10 @@ class BlockSweep {
                  int depth) const {
     return blocks_of(problem.required, problem.clusters, labels, depth, domain_);
   }
+
+  /// What the blocks of this parity around some nodes require of the depth above, the input left
+  /// out. What a union of nodes requires is the union of what each requires.
+  BrickSet required_by(const BrickSet& nodes, Parity parity, int depth) const;
 
  private:
   const NestedSets& input_;

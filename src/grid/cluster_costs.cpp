@@ -8,6 +8,7 @@
 
 #include "grid/blocks.h"
 #include "grid/clusters.h"
+#include "grid/hash.h"
 
 namespace hexwright {
 namespace {
@@ -21,18 +22,23 @@ constexpr std::array<BrickBits, 3> read_shifted(BrickBits lower, BrickBits own, 
           shift_down(own, axis) | move_slice(upper, axis, 0, 3)};
 }
 
+/// One step of shifted_words(); the axis is a constant so that no index is divided at run time.
+template <int kAxis>
+void shift_along(std::array<BrickBits, 27>& words) {
+  constexpr int kStride = kAxis == 0 ? 1 : kAxis == 1 ? 3 : 9;
+  for (int line = 0; line < 9; ++line) {
+    const int n = line / kStride * 3 * kStride + line % kStride;
+    const auto read = read_shifted(words[n], words[n + kStride], words[n + 2 * kStride], kAxis);
+    for (int k = 0; k < 3; ++k) words[n + k * kStride] = read[k];
+  }
+}
+
 /// Entry n: bit c tells whether node c + offset n is required, for the 27 offsets of
 /// neighbour_number(). Axis by axis, so that each step reads three words.
 std::array<BrickBits, 27> shifted_words(std::array<BrickBits, 27> words) {
-  constexpr std::array<int, 3> kStride = {1, 3, 9};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int s = kStride[axis];
-    for (int n = 0; n < 27; ++n) {
-      if (n / s % 3 != 0) continue;
-      const auto read = read_shifted(words[n], words[n + s], words[n + 2 * s], axis);
-      for (int k = 0; k < 3; ++k) words[n + k * s] = read[k];
-    }
-  }
+  shift_along<0>(words);
+  shift_along<1>(words);
+  shift_along<2>(words);
   return words;
 }
 
@@ -93,16 +99,27 @@ int count_block_nodes(BrickBits representatives, Parity parity, const Neighbourh
   if (representatives == 0) return 0;
   const auto grown = grow_to_blocks(representatives, parity);
   int count = 0;
-  for (int n = 0; n < 27; ++n) count += count_bits(grown[n] & masks[n]);
+  for (int n = 0; n < 27; ++n)
+    if (grown[n] & masks[n]) count += count_bits(grown[n] & masks[n]);  // few are reached
   return count;
 }
 
-using PieceCosts = std::array<std::int32_t, kNumParities>;
+using PieceCosts = ClusterCostCache::PieceCosts;
 
-void brick_costs(const BrickSet& required, const Clusters& clusters, std::uint32_t b, int depth,
-                 const LatticeDomain& domain, std::vector<PieceCosts>& costs) {
+/// Whose pieces, where.
+struct PieceCostQuery {
+  const BrickSet& required;
+  const Clusters& clusters;
+  int depth;
+  const LatticeDomain& domain;
+};
+
+/// Costs of the pieces of one brick.
+void brick_costs(const PieceCostQuery& query, std::uint32_t b, const Neighbourhood& around,
+                 std::vector<PieceCosts>& costs) {
+  const auto& [required, clusters, depth, domain] = query;
   const Brick& brick = required.bricks()[b];
-  const auto first = representatives(brick.bits, required.neighbourhood(brick.key));
+  const auto first = representatives(brick.bits, around);
   const bool is_interior = domain.is_interior(brick.key, depth);
   const Neighbourhood masks =
       is_interior ? Neighbourhood{} : domain_masks(brick.key, depth, domain);
@@ -111,6 +128,15 @@ void brick_costs(const BrickSet& required, const Clusters& clusters, std::uint32
       const BrickBits mine = first[p] & clusters.pieces[i].bits;
       costs[i][p] = is_interior ? 8 * count_bits(mine) : count_block_nodes(mine, p, masks);
     }
+}
+
+std::vector<std::array<std::int64_t, kNumParities>> sums_by_cluster(
+    const std::vector<PieceCosts>& by_piece, const Clusters& clusters) {
+  std::vector<std::array<std::int64_t, kNumParities>> out(clusters.num_clusters);
+  for (auto& costs : out) costs.fill(0);
+  for (std::size_t i = 0; i < by_piece.size(); ++i)
+    for (Parity p = 0; p < kNumParities; ++p) out[clusters.pieces[i].cluster][p] += by_piece[i][p];
+  return out;
 }
 
 /// Forbidden parity pairs by the first node's coordinate parities and the offset to the second.
@@ -215,17 +241,49 @@ std::vector<std::array<std::int64_t, kNumParities>> block_costs(const BrickSet& 
                                                                 const Clusters& clusters, int depth,
                                                                 const LatticeDomain& domain) {
   std::vector<PieceCosts> by_piece(clusters.pieces.size());
+  const PieceCostQuery query{required, clusters, depth, domain};
   parallel_for(
       required.num_bricks(),
       [&](std::size_t b) {
-        brick_costs(required, clusters, static_cast<std::uint32_t>(b), depth, domain, by_piece);
+        brick_costs(query, static_cast<std::uint32_t>(b),
+                    required.neighbourhood(required.bricks()[b].key), by_piece);
       },
       kBricksPerChunk);
-  std::vector<std::array<std::int64_t, kNumParities>> out(clusters.num_clusters);
-  for (auto& costs : out) costs.fill(0);
-  for (std::size_t i = 0; i < by_piece.size(); ++i)
-    for (Parity p = 0; p < kNumParities; ++p) out[clusters.pieces[i].cluster][p] += by_piece[i][p];
-  return out;
+  return sums_by_cluster(by_piece, clusters);
+}
+
+namespace {
+
+/// Of everything that the costs of a brick's pieces depend on, but for the piece itself.
+std::uint64_t neighbourhood_hash(BrickKey key, int depth, const Neighbourhood& around) {
+  std::uint64_t hash = mix_bits(key ^ static_cast<std::uint64_t>(depth) << 58);
+  for (const BrickBits w : around) hash = (hash ^ hash >> 32 ^ w) * 0x9e3779b97f4a7c15u;
+  return hash;
+}
+
+}  // namespace
+
+std::vector<std::array<std::int64_t, kNumParities>> ClusterCostCache::costs(
+    const BrickSet& required, const Clusters& clusters, int depth, const LatticeDomain& domain) {
+  std::vector<PieceCosts> by_piece(clusters.pieces.size());
+  for (std::uint32_t b = 0; b < required.num_bricks(); ++b) {
+    const BrickKey key = required.bricks()[b].key;
+    const Neighbourhood around = required.neighbourhood(key);
+    const std::uint64_t hash = neighbourhood_hash(key, depth, around);
+    bool is_computed = false;
+    for (std::uint32_t i = clusters.brick_offset[b]; i < clusters.brick_offset[b + 1]; ++i) {
+      const auto [entry, is_new] =
+          known_.try_emplace(mix_bits(hash ^ mix_bits(clusters.pieces[i].bits)));
+      if (!is_new) {
+        by_piece[i] = entry->second;
+        continue;
+      }
+      if (!is_computed) brick_costs({required, clusters, depth, domain}, b, around, by_piece);
+      is_computed = true;
+      entry->second = by_piece[i];
+    }
+  }
+  return sums_by_cluster(by_piece, clusters);
 }
 
 std::vector<Conflict> find_conflicts(const BrickSet& required, const Clusters& clusters) {

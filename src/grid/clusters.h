@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "grid/brick_set.h"
@@ -48,6 +49,20 @@ Clusters find_clusters(const BrickSet& required);
 std::vector<std::array<std::int64_t, kNumParities>> block_costs(const BrickSet& required,
                                                                 const Clusters& clusters, int depth,
                                                                 const LatticeDomain& domain);
+
+/// As block_costs(), but remembers what the pieces of a brick cost by a hash of the nodes in and
+/// around it: for many small problems that differ in a few places.
+class ClusterCostCache {
+ public:
+  using PieceCosts = std::array<std::int32_t, kNumParities>;
+
+  std::vector<std::array<std::int64_t, kNumParities>> costs(const BrickSet& required,
+                                                            const Clusters& clusters, int depth,
+                                                            const LatticeDomain& domain);
+
+ private:
+  std::unordered_map<std::uint64_t, PieceCosts> known_;
+};
 
 /// Pairs of clusters that cannot choose freely, sorted.
 std::vector<Conflict> find_conflicts(const BrickSet& required, const Clusters& clusters);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
+#include "grid/cluster_requirements.h"
 #include "grid/hash.h"
 
 namespace hexwright {
@@ -16,6 +18,12 @@ namespace {
 // 10^5 cells on the descent stays within three times the sweep's time.
 constexpr std::size_t kWorkFactor = 2;
 constexpr std::size_t kSmallGridWork = 60'000, kSmallSweep = 250;
+
+// Problems up to this many bricks take the costs of clusters from the cache; larger ones are worth
+// several threads.
+constexpr std::size_t kMaxBricksToCache = 256;
+// From this many candidates on, lists of what each cluster requires pay for themselves.
+constexpr std::size_t kMinMovesForLists = 8;
 
 /// Each cluster's conflicts, as positions in the problem's list.
 std::vector<std::vector<std::uint32_t>> conflicts_by_cluster(const DepthProblem& problem) {
@@ -121,17 +129,22 @@ void Descent::compute_bounds() {
 
 std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t limit) {
   if (depth == 0) return 0;
-  BrickSet required = sweep_.required(depth - 1, split);
   spend(split);
-  const std::uint64_t hash = hash_of(required, static_cast<std::uint64_t>(depth));
+  return cost_from(sweep_.required(depth - 1, split), depth - 1, limit);
+}
+
+std::int64_t Descent::cost_from(BrickSet required, int depth, std::int64_t limit) {
+  const std::uint64_t hash = hash_of(required, static_cast<std::uint64_t>(depth) + 1);
   if (const auto known = cost_of_required_.find(hash); known != cost_of_required_.end())
     return known->second;
   spend(required);
-  const DepthProblem problem = sweep_.pose(std::move(required), depth - 1);
+  const DepthProblem problem = required.num_bricks() <= kMaxBricksToCache
+                                   ? sweep_.pose(std::move(required), depth, cluster_costs_)
+                                   : sweep_.pose(std::move(required), depth);
   const std::int64_t here = problem.solution.cost;
-  if (here + bound_above(depth - 1) >= limit) return limit;
-  const BrickSet above = sweep_.split(problem, problem.solution.labels, depth - 1);
-  const std::int64_t total = here + cost_above(above, depth - 1, limit - here);
+  if (here + bound_above(depth) >= limit) return limit;
+  const BrickSet split = sweep_.split(problem, problem.solution.labels, depth);
+  const std::int64_t total = here + cost_above(split, depth, limit - here);
   if (total < limit) cost_of_required_[hash] = total;
   return total;
 }
@@ -172,6 +185,8 @@ bool Descent::try_moves(const DepthProblem& problem, int depth, std::vector<std:
   // No more candidates than the budget could ever try.
   const std::size_t work_per_move = problem.required.num_bricks() + kWorkPerSet;
   const std::size_t max_clusters = (stop - std::min(stop, work_)) / work_per_move;
+  std::optional<ClusterRequirements> by_cluster;
+  if (depth > 0 && max_clusters >= kMinMovesForLists) by_cluster.emplace(sweep_, problem, depth);
   const std::vector<std::uint8_t> start = labels;
   std::vector<std::uint8_t> best = labels;
   for (const Move& move : list_moves(problem, start, max_clusters)) {
@@ -180,8 +195,10 @@ bool Descent::try_moves(const DepthProblem& problem, int depth, std::vector<std:
     std::vector<std::uint8_t> tried = start;
     for (const std::uint32_t k : move.clusters) tried[k] = static_cast<std::uint8_t>(move.parity);
     spend(problem.required);
+    const std::int64_t limit = best_total - move.cost;
     const std::int64_t total =
-        move.cost + cost_above(sweep_.split(problem, tried, depth), depth, best_total - move.cost);
+        move.cost + (by_cluster ? cost_from(by_cluster->required(tried), depth - 1, limit)
+                                : cost_above(sweep_.split(problem, tried, depth), depth, limit));
     if (total >= best_total) continue;
     best_total = total;
     best = std::move(tried);

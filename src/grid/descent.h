@@ -39,6 +39,8 @@ class Descent {
   /// Split nodes of all depths above `depth` after it splits `split`; at least `limit` when that
   /// much is certain before the end.
   std::int64_t cost_above(const BrickSet& split, int depth, std::int64_t limit);
+  /// As cost_above(), of this depth and all above, given what it must split.
+  std::int64_t cost_from(BrickSet required, int depth, std::int64_t limit);
   /// Lower bound on the split nodes of the depths 0 .. depth - 1.
   std::int64_t bound_above(int depth) const { return bound_above_[depth]; }
   void compute_bounds();
@@ -50,6 +52,7 @@ class Descent {
   const Context& context_;
   std::vector<std::int64_t> bound_above_;
   std::unordered_map<std::uint64_t, std::int64_t> cost_of_required_;  ///< by hash; exact costs only
+  ClusterCostCache cluster_costs_;
   std::size_t work_ = 0, budget_ = 0;
 };
 
