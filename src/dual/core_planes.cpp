@@ -26,6 +26,8 @@ class Clusters {
   }
 
  private:
+  // All children at a side of their parent touch its middle, and those at an edge the edge's
+  // middle, so any two of them from both parents share a vertex.
   void join_across(const SplitNodes& nodes, std::size_t g, const std::array<int, 3>& offset) {
     const NodeGroup& group = nodes.groups()[g];
     int here = group.children, there = 0xFF;
@@ -64,6 +66,7 @@ struct AxisCost {
   std::array<PlaneCost, 2> of_parity;
   std::array<bool, 2> is_avoided = {false, false};  // leads a plane through a vertex to avoid
 
+  // Ties go to the odd parity, whose planes run between siblings.
   int best_parity() const {
     if (is_avoided[0] != is_avoided[1]) return is_avoided[0];
     return !(of_parity[0] < of_parity[1]);

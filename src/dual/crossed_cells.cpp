@@ -21,6 +21,8 @@ LatticeCoord partner_of(LatticeCoord node, int axis, int parity) {
   return node;
 }
 
+// `above` is the depth above: a partner whose parent is not split is a coarser leaf, which is
+// capped whole and cannot be split at this depth.
 std::vector<Crossing> collect_crossings(const SplitNodes& nodes, const SplitNodes* above, int depth,
                                         const Domain& domain) {
   std::vector<Crossing> crossings;
@@ -41,6 +43,8 @@ std::vector<Crossing> collect_crossings(const SplitNodes& nodes, const SplitNode
 
 }  // namespace
 
+// A cell cut along two axes would get caps of both in one place: splitting it costs less in quality
+// and hardly more hexes. Sorted by cell, so crossings of one cell follow each other.
 std::size_t split_crossed_cells(SplitNodes& nodes, const SplitNodes* above, int depth,
                                 const Domain& domain) {
   const auto crossings = collect_crossings(nodes, above, depth, domain);

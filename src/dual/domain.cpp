@@ -21,6 +21,8 @@ Domain::Domain(const Grid& grid) : root_list_(grid.roots), finest_level_(grid.fi
   is_box_ = volume == grid.roots.size();
 }
 
+// A root without neighbour on both sides of an axis has two parallel boundary planes one edge
+// apart.
 bool Domain::is_thin() const {
   for (const LatticeCoord& root : root_list_)
     for (int a = 0; a < 3; ++a) {
@@ -38,6 +40,9 @@ std::size_t Domain::cell_index(const LatticeCoord& root) const {
          static_cast<std::size_t>((root[0] & 1) | (root[1] & 1) << 1 | (root[2] & 1) << 2);
 }
 
+// Octant q of a point lies in the root whose finest-lattice cell has the point as the corner
+// opposite to q: one step back on the axes where q is on the low side. The shift rounds down, also
+// for negative coordinates.
 int Domain::octants_at(const LatticeCoord& point) const {
   int octants = 0;
   for (int q = 0; q < 8; ++q) {
@@ -48,6 +53,9 @@ int Domain::octants_at(const LatticeCoord& point) const {
   return octants;
 }
 
+// Octants joined by faces form a path of four when two of them have one neighbour and two have two
+// (six ends of links in all). Four in a plane would be a ring of eight ends, so a path is always
+// twisted out of any plane, left- or right-handed.
 bool Domain::is_chiral_corner(const LatticeCoord& point) const {
   const int octants = octants_at(point);
   int num_octants = 0, num_ends = 0, num_links = 0;
@@ -78,6 +86,7 @@ std::vector<LatticeCoord> Domain::find_chiral_corners() const {
   return corners;
 }
 
+// The boundary is flat where the domain covers exactly one side of a lattice plane.
 bool Domain::is_corner_or_crease(const LatticeCoord& point) const {
   const int octants = octants_at(point);
   if (octants == 0 || octants == 0xFF) return false;

@@ -64,6 +64,7 @@ void collect_wedges(const HexComplex& complex, std::uint32_t corner, std::vector
   }
 }
 
+// More than two sightings of one pair of ends: two quads share both edges.
 bool is_doubled(std::vector<Wedge>& wedges) {
   std::sort(wedges.begin(), wedges.end());
   int sides = 0;
@@ -77,6 +78,7 @@ bool is_doubled(std::vector<Wedge>& wedges) {
 
 }  // namespace
 
+// Lattice hexes alone form regular neighbourhoods, so only vertices of a cap are looked at closely.
 std::vector<VertId> find_double_links(const HexComplex& complex) {
   const CornerRows rows(complex);
   const auto num_verts = static_cast<std::size_t>(complex.num_verts);
@@ -99,6 +101,8 @@ std::vector<VertId> find_double_links(const HexComplex& complex) {
   return found;
 }
 
+// `verts` must be sorted. The mean place of a vertex's hexes lies in the leaf it belongs to, which
+// is what the repair needs; positions do not exist yet at that time.
 std::vector<Vec3> mean_places(const HexComplex& complex, const std::vector<VertId>& verts) {
   const auto places = compute_places(complex);
   std::vector<Vec3> means(verts.size());

@@ -18,6 +18,7 @@ HexId HexComplex::add_hex() {
   return verts.push_back({});
 }
 
+// Domains have few planes; a list is searched faster than anything else.
 int HexComplex::find_or_add_plane(const DomainPlane& plane) {
   const auto found = std::find(planes.begin(), planes.end(), plane);
   if (found != planes.end()) return static_cast<int>(found - planes.begin());
@@ -45,6 +46,8 @@ bool faces_match(const HexComplex& c, HexId a, int lf_a, HexId b, int lf_b) {
 
 }  // namespace
 
+// A link must be mutual, lead to another hex, and join faces of the same vertices. Quads that share
+// two edges are looked for elsewhere (double_links.h).
 std::optional<Issue> HexComplex::find_problem() const {
   for (HexId h : verts.ids())
     for (int lf = 0; lf < 6; ++lf) {

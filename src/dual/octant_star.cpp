@@ -10,6 +10,7 @@ namespace hexwright::dual {
 
 namespace {
 
+// Every corner of a root once, by z, then y, then x: this order numbers the base mesh's hexes.
 std::vector<LatticeCoord> collect_lattice_verts(const Domain& domain) {
   std::vector<LatticeCoord> verts;
   verts.reserve(domain.roots().size() * 8);
@@ -35,6 +36,9 @@ int connected_part(int octants) {
   return part;
 }
 
+// Two octants left around an edge that are diagonal to each other touch along it only. In different
+// stars they would be kept apart; in one star they are connected around the vertex, and no choice
+// of vertices keeps the boundary a manifold.
 void reject_pinched_edges(const OctantStar& star) {
   for (int a = 0; a < 3; ++a)
     for (int side = 0; side < 2; ++side) {

@@ -13,6 +13,7 @@ struct Corner {
   double det, lengths_sq;
 };
 
+// kHexCornerNeighbors is ordered so that a right-handed corner has a positive determinant.
 Corner corner_of(const std::array<Vec3, 8>& p, int lv) {
   const auto& n = kHexCornerNeighbors[lv];
   const Vec3 e0 = p[n[0]] - p[lv], e1 = p[n[1]] - p[lv], e2 = p[n[2]] - p[lv];
@@ -21,6 +22,8 @@ Corner corner_of(const std::array<Vec3, 8>& p, int lv) {
 
 }  // namespace
 
+// The least over the corners of det / product of edge lengths: 1 for a cube, <= 0 when inverted. An
+// edge of length zero counts as inverted.
 double scaled_jacobian(const HexMesh& mesh, HexId h) {
   const auto p = mesh.corners(h);
   double least = 1;
@@ -32,6 +35,8 @@ double scaled_jacobian(const HexMesh& mesh, HexId h) {
   return least;
 }
 
+// The power mean with exponent -8, smooth where the least is not: within 8^(1/8) = 1.3 of it. See
+// docs/algorithms/dual.md, "Raising the mean". Square roots only: pow() differs between platforms.
 double soft_scaled_jacobian(const HexMesh& mesh, HexId h) {
   const auto p = mesh.corners(h);
   double mean = 0;  // of s^-8

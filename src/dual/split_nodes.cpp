@@ -8,6 +8,8 @@ namespace hexwright::dual {
 
 namespace {
 
+// Coordinates of neighbours differ in low bits only: multiplied by odd constants and folded, so
+// that the table's low bits depend on all of them. Negative coordinates wrap, which does no harm.
 std::uint64_t hash_coord(const LatticeCoord& p) {
   std::uint64_t h = static_cast<std::uint32_t>(p[0]) * 0x9E3779B97F4A7C15ull;
   h = (h ^ (h >> 29)) + static_cast<std::uint32_t>(p[1]) * 0xBF58476D1CE4E5B9ull;
@@ -27,6 +29,7 @@ std::size_t SplitNodes::slot_of(const LatticeCoord& parent) const {
   return slot;
 }
 
+// Groups never go away, so there are no tombstones; a new table is filled in order of groups.
 void SplitNodes::rehash(std::size_t capacity) {
   table_.assign(capacity, -1);
   for (std::size_t g = 0; g < groups_.size(); ++g)

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
 
+/// Face neighbours: own moves by one along each axis, not one after the other as that would reach
+/// across edges.
 std::array<BrickBits, 27> grow_weak(BrickBits w) {
   std::array<BrickBits, 27> out{};
   BrickBits own = w;
@@ -23,6 +25,7 @@ std::array<BrickBits, 27> grow_weak(BrickBits w) {
   return out;
 }
 
+/// All 26 neighbours: the axes after each other, each spreading what the last one reached.
 std::array<BrickBits, 27> grow_strong(BrickBits w) {
   std::array<BrickBits, 27> out{};
   for (int dx = -1; dx <= 1; ++dx) {

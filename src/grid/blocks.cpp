@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
 
+/// Adds the blocks of one parity around a brick's nodes. Blocks reach into neighbouring bricks, so
+/// words of one key come from several bricks and are united later.
 void emit_blocks(BrickKey key, BrickBits bits, Parity parity, int depth,
                  const LatticeDomain& domain, std::vector<Brick>& out) {
   const auto grown = grow_to_blocks(bits, parity);
@@ -27,6 +29,8 @@ void emit_blocks(BrickKey key, BrickBits bits, Parity parity, int depth,
 
 std::array<BrickBits, 27> grow_to_blocks(BrickBits w, Parity parity) {
   std::array<BrickBits, 27> out{};
+  // A block's centre is odd along an axis when it pairs nodes (2k, 2k+1), even for (2k-1, 2k); the
+  // three axes are independent, so a block is three spreads after each other.
   std::array<Spread, 3> spread;
   for (int a = 0; a < 3; ++a) spread[a] = parity >> a & 1 ? Spread::OddPairs : Spread::EvenPairs;
   for (int dx = -1; dx <= 1; ++dx) {

@@ -12,6 +12,7 @@ namespace {
 // A lambda, not a function: sorting calls it in line.
 constexpr auto key_less = [](const Brick& a, const Brick& b) { return a.key < b.key; };
 
+/// In place, for sorted bricks; empty ones go.
 void unite_equal_keys(std::vector<Brick>& bricks) {
   std::size_t num_kept = 0;
   for (const Brick& b : bricks) {
@@ -34,6 +35,7 @@ void normalize_bricks(std::vector<Brick>& bricks) {
 
 BrickSet::BrickSet(std::vector<Brick> bricks) : bricks_(std::move(bricks)) {
   normalize_bricks(bricks_);
+  // Sets live long, several per depth: what the union saved is worth giving back.
   bricks_.shrink_to_fit();
   if (bricks_.size() >= kAbsent / 4)
     throw Error(ErrorCode::OutOfResources, "the grid has too many split nodes in one level");
@@ -48,6 +50,7 @@ std::size_t BrickSet::num_nodes() const {
 
 void BrickSet::build_slots() {
   if (bricks_.empty()) return;
+  // At most half full, so that a miss, the commonest question, ends after one or two slots.
   const std::size_t num_slots = std::bit_ceil(2 * bricks_.size());
   slot_shift_ = 64 - std::countr_zero(num_slots);
   slots_.assign(num_slots, kAbsent);
@@ -58,6 +61,8 @@ void BrickSet::build_slots() {
   }
 }
 
+// Each list is sorted by itself in parallel; joined in the order of chunks they are nearly sorted,
+// and the union of equal keys makes the result the same however the words were spread.
 BrickSet BrickCollector::take() {
   parallel_for(
       lists_.size(), [&](std::size_t i) { normalize_bricks(lists_[i]); }, 1);

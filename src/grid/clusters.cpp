@@ -127,6 +127,9 @@ std::vector<std::vector<PiecePair>> find_links(const BrickSet& required, const C
 
 }  // namespace
 
+// Pieces and links are found in parallel, united one after the other in the order of bricks: the
+// smaller piece survives a union, so clusters come out numbered by their first piece whatever the
+// chunks.
 Clusters find_clusters(const BrickSet& required) {
   Clusters out;
   make_pieces(required, out);

@@ -16,6 +16,8 @@
 namespace hexwright {
 namespace {
 
+/// One pass from the deepest depth to the roots; nothing iterates, as what a depth requires of the
+/// one above is known once its own set is final.
 NestedSets balance_only(const NestedSets& input, Balance balance, const LatticeDomain& domain) {
   NestedSets out = input;
   for (int d = static_cast<int>(out.size()) - 2; d >= 0; --d) {
@@ -26,6 +28,7 @@ NestedSets balance_only(const NestedSets& input, Balance balance, const LatticeD
   return out;
 }
 
+/// The prior art: every block a sibling octet. No choice is left, so the result is unique.
 NestedSets pair_octets(const NestedSets& input, Balance balance, const LatticeDomain& domain) {
   NestedSets out(input.size());
   for (int d = static_cast<int>(input.size()) - 1; d >= 0; --d) {
@@ -37,6 +40,7 @@ NestedSets pair_octets(const NestedSets& input, Balance balance, const LatticeDo
   return out;
 }
 
+/// Each depth takes the labels that are cheapest there, whatever they force above.
 NestedSets sweep_blocks(const BlockSweep& sweep, const Context& context, CompleteReport& report) {
   NestedSets out(sweep.input().size());
   BrickSet split;

@@ -133,6 +133,8 @@ std::int64_t Descent::cost_above(const BrickSet& split, int depth, std::int64_t 
   return cost_from(sweep_.required(depth - 1, split), depth - 1, limit);
 }
 
+// A cost is remembered only when it was computed to the end: a search cut off by its limit knows no
+// more than that the limit is reached.
 std::int64_t Descent::cost_from(BrickSet required, int depth, std::int64_t limit) {
   const std::uint64_t hash = hash_of(required, static_cast<std::uint64_t>(depth) + 1);
   if (const auto known = cost_of_required_.find(hash); known != cost_of_required_.end())
@@ -207,6 +209,8 @@ bool Descent::try_moves(const DepthProblem& problem, int depth, std::vector<std:
   return best != start;
 }
 
+// Rounds of candidates from the best labelling so far, until a round brings nothing or the work is
+// used up. The sweep's own labels are priced first: the result is never worse than theirs.
 std::vector<std::uint8_t> Descent::choose_labels(const DepthProblem& problem, int depth) {
   std::vector<std::uint8_t> labels = problem.solution.labels;
   std::int64_t total =

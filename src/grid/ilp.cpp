@@ -1,4 +1,7 @@
 // Completion by integer programs, one per depth or one for all.
+//
+// Based on: Pitzalis et al. 2021, section 4, as the oracle for the labelling solver; and the whole
+// hierarchy at once (docs/algorithms/pairing.md, "All depths together").
 #include "hexwright/grid/ilp.h"
 
 #include <algorithm>
@@ -15,6 +18,8 @@
 namespace hexwright {
 namespace {
 
+/// One time limit shared by the programs of all depths. A program that begins late gets a hundredth
+/// of a second, and fails by its own limit, which is reported.
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
@@ -39,6 +44,8 @@ std::size_t leaves_of(double split_nodes, const LatticeDomain& domain) {
   return domain.shifted_roots().size() + 7 * static_cast<std::size_t>(whole);
 }
 
+/// As the sweep: from the deepest depth on, each program's answer fixes what the next must split.
+/// The bounds of the depths add up, given the answers below them.
 NestedSets solve_depths(const NestedSets& input, const IlpOptions& options,
                         const LatticeDomain& domain, const Context& context, IlpResult& result) {
   const Deadline deadline(options.time_limit_seconds);
@@ -61,6 +68,8 @@ NestedSets solve_depths(const NestedSets& input, const IlpOptions& options,
   return split;
 }
 
+/// Starts from the descent's answer, so that it can only get better, and a time limit costs nothing
+/// but the proof.
 NestedSets solve_hierarchy(const Grid& grid, const NestedSets& input, const IlpOptions& options,
                            const LatticeDomain& domain, const Context& context, IlpResult& result) {
   const Grid start = complete(grid, {options.balance, Pairing::Blocks, true}, context).grid;

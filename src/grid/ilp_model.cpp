@@ -1,4 +1,7 @@
 // Hands a binary program to HiGHS through its C interface.
+//
+// One thread and a fixed seed: the answer is the same from run to run unless the time limit ends
+// it.
 #include "grid/ilp_model.h"
 
 #include <cmath>
@@ -42,6 +45,7 @@ IlpSolution IlpModel::solve(const std::vector<char>& start, double time_limit_se
   Highs_setBoolOptionValue(highs.get(), "output_flag", 0);
   Highs_setIntOptionValue(highs.get(), "threads", 1);
   Highs_setIntOptionValue(highs.get(), "random_seed", 1);
+  // The relative gap's default (1e-4) could accept a labelling one block above the optimum.
   Highs_setDoubleOptionValue(highs.get(), "mip_rel_gap", 0);
   Highs_setDoubleOptionValue(highs.get(), "mip_abs_gap", 0.5);  // objectives are whole numbers
   Highs_setDoubleOptionValue(highs.get(), "time_limit", time_limit_seconds);
@@ -67,10 +71,12 @@ IlpSolution IlpModel::solve(const std::vector<char>& start, double time_limit_se
   HighsInt has_solution = 0;
   Highs_getIntInfoValue(highs.get(), "primal_solution_status", &has_solution);
   Highs_getDoubleInfoValue(highs.get(), "mip_dual_bound", &out.lower_bound);
+  // No solution in time is an outcome, not an error: the caller sees empty values and the bound.
   if (has_solution != kHighsSolutionStatusFeasible) return out;
   std::vector<double> values(costs_.size()), duals(costs_.size()), row_values(num_rows()),
       row_duals(num_rows());
   Highs_getSolution(highs.get(), values.data(), duals.data(), row_values.data(), row_duals.data());
+  // Values are whole up to the solver's tolerance; the objective is summed anew from rounded ones.
   for (std::size_t i = 0; i < values.size(); ++i) {
     out.values.push_back(values[i] > 0.5 ? 1 : 0);
     out.objective += values[i] > 0.5 ? costs_[i] : 0;

@@ -5,6 +5,7 @@
 
 namespace hexwright {
 
+// Breadth first from the lowest node not seen yet, so groups are ordered by their first node.
 std::vector<std::vector<std::uint32_t>> find_groups(const LabelGraph& graph) {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<char> is_seen(graph.num_nodes(), 0);

@@ -7,6 +7,7 @@
 namespace hexwright {
 namespace {
 
+// Large enough to move whole knots of conflicts, small enough that nearly every part's tables fit.
 constexpr std::size_t kPartSize = 24;
 constexpr std::size_t kTableEntries = std::size_t{1} << 12;
 constexpr int kRounds = 2;
@@ -60,6 +61,8 @@ LabelGraph part_graph(const LabelGraph& graph, const Part& part, const Labelling
   return out;
 }
 
+/// Solves the part exactly while the labels around it stay, and keeps the result if it is cheaper.
+/// Labels outside are respected through part_graph()'s masks, so the whole stays feasible.
 void improve_part(const LabelGraph& graph, const Part& part, Labelling& at) {
   const LabelGraph alone = part_graph(graph, part, at);
   for (const LabelMask allowed : alone.allowed)

@@ -1,4 +1,10 @@
 // Branch and bound for groups of clusters whose elimination tables would be too large.
+//
+// Clusters are labelled one after the other, neighbours soon after each other so that conflicts
+// show early, cheapest label first. The bound adds what the clusters still to come cost at least,
+// each by itself; it ignores their conflicts, so it is weak, which is why this is the last method
+// asked. Based on: Land, Doig, "An automatic method of solving discrete programming problems",
+// Econometrica 28, 1960.
 #include <algorithm>
 #include <numeric>
 
@@ -22,6 +28,7 @@ class BranchAndBound {
     for (auto& counts : blocked_) counts.fill(0);
   }
 
+  /// Past the node limit the bound at the root is all that is known.
   SearchResult run() {
     descend();
     SearchResult out;
@@ -32,6 +39,7 @@ class BranchAndBound {
   }
 
  private:
+  /// Neighbours close to each other, so that a label soon meets the labels it excludes.
   std::vector<std::uint32_t> breadth_first_order() const {
     std::vector<std::uint32_t> order;
     std::vector<char> is_seen(graph_.num_nodes(), 0);
@@ -57,6 +65,8 @@ class BranchAndBound {
     bool is_set = false;
   };
 
+  /// The labels that no neighbour set so far excludes. Stable: equal costs keep the labels' order,
+  /// so the result does not depend on the sort.
   Frame open(std::uint32_t node, std::int64_t cost) const {
     Frame f;
     f.cost_before = cost;
@@ -68,6 +78,7 @@ class BranchAndBound {
     return f;
   }
 
+  /// Counts, not marks: several neighbours may exclude one label, and each takes back its own.
   void block(std::uint32_t node, Parity label, int sign) {
     for (const LabelEdge& e : graph_.edges[node])
       for (Parity q = 0; q < kNumParities; ++q)
@@ -116,6 +127,7 @@ class BranchAndBound {
   Labelling best_;
 };
 
+/// Whether a node may take a label while all others keep theirs.
 bool is_free(const LabelGraph& graph, const Labelling& at, std::size_t node, Parity label) {
   for (const LabelEdge& e : graph.edges[node])
     if (e.forbids[label] >> at.labels[e.other] & 1) return false;
@@ -129,9 +141,11 @@ Labelling make_start(const LabelGraph& graph) {
   for (const LabelCosts& c : graph.costs)
     for (Parity p = 0; p < kNumParities; ++p) totals[p] += c[p];
   const auto uniform = std::min_element(totals.begin(), totals.end()) - totals.begin();
+  // Equal labels never exclude each other, so one label for all is always feasible.
   Labelling out;
   out.labels.assign(graph.num_nodes(), static_cast<std::uint8_t>(uniform));
   out.cost = totals[static_cast<std::size_t>(uniform)];
+  // Every change lowers the cost by at least one, so this ends.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (std::size_t u = 0; u < graph.num_nodes(); ++u)

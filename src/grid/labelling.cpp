@@ -18,6 +18,7 @@ std::int64_t with_tie_break(std::int64_t cost, Parity parity) {
   return cost * kLeafCost + std::popcount(static_cast<unsigned>(parity));
 }
 
+/// Both directions of every conflict, so that a node sees all its neighbours.
 LabelGraph make_graph(const std::vector<LabelCosts>& costs,
                       const std::vector<Conflict>& conflicts) {
   LabelGraph graph;
@@ -48,6 +49,7 @@ Labelling feasible_start(const LabelGraph& unpruned, const std::vector<PrunedLab
   return out;
 }
 
+/// The part of a labelling that falls to a group, with its cost there.
 Labelling restricted(const Labelling& all, const LabelGraph& graph,
                      const std::vector<std::uint32_t>& group) {
   Labelling out;

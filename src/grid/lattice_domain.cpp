@@ -42,6 +42,7 @@ LatticeCoord LatticeDomain::unshifted(const LatticeCoord& node, int depth) const
 }
 
 void LatticeDomain::tabulate_roots() {
+  // Roots that lie far apart would need a huge table: those are searched instead.
   constexpr std::int64_t kMaxTable = 1 << 20;
   LatticeCoord hi = roots_.front();
   low_ = roots_.front();
@@ -60,6 +61,7 @@ bool LatticeDomain::is_listed(const LatticeCoord& root) const {
   return std::binary_search(roots_.begin(), roots_.end(), root, root_less);
 }
 
+// From depth 2 on a brick lies inside one root; above, each of its nodes is asked.
 BrickBits LatticeDomain::mask(BrickKey key, int depth) const {
   if (depth >= 2) return contains(node_of_bit(key, 0), depth) ? ~BrickBits{0} : 0;
   BrickBits bits = 0;
@@ -68,6 +70,8 @@ BrickBits LatticeDomain::mask(BrickKey key, int depth) const {
   return bits;
 }
 
+// Most bricks are well inside their root, which coordinates alone tell. The border of a domain of
+// one root is the border of that root; between several roots the neighbours must be looked up.
 bool LatticeDomain::is_interior(BrickKey key, int depth) const {
   if (depth >= 2) {
     const std::int32_t last = (1 << (depth - 2)) - 1;

@@ -160,6 +160,7 @@ std::vector<Subtree> make_subtrees(const LeafWriter& writer, const LatticeDomain
 
 }  // namespace
 
+// A chunk's first leaves repeat ancestors of the chunk before; the union forgets that.
 NestedSets split_sets_of(const Grid& grid, const LatticeDomain& domain) {
   const std::size_t num_chunks = (grid.num_cells() + kLeavesPerChunk - 1) / kLeavesPerChunk;
   std::vector<BrickCollector> collectors(grid.finest_level, BrickCollector(num_chunks));
@@ -174,6 +175,7 @@ NestedSets split_sets_of(const Grid& grid, const LatticeDomain& domain) {
   return sets;
 }
 
+// Tasks are counted first, so that each knows where its leaves begin and writes them in place.
 Grid grid_of(const NestedSets& sets, const Grid& like, const LatticeDomain& domain) {
   Grid out;
   out.frame = like.frame;

@@ -85,6 +85,7 @@ std::vector<Subtree> make_subtrees(const Refiner& refiner, const std::vector<Lat
   return tasks;
 }
 
+/// Leaves are kept on their own level's lattice until the deepest level that occurs is known.
 void join_leaves(const std::vector<std::vector<Node>>& lists, Grid& out) {
   std::vector<std::size_t> first = {0};
   for (const auto& list : lists) {
