@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 try:
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import Error as PlaywrightError, sync_playwright
 except ImportError:
     print("skipped: python3 -m pip install playwright")
     sys.exit(77)
@@ -119,7 +119,11 @@ def take_pictures(browser, report, prefix):
 
 def main():
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        try:
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        except PlaywrightError as error:
+            print(f"skipped: {CHROMIUM} does not start: {error}")
+            sys.exit(77)
         if len(sys.argv) > 3:
             return take_pictures(browser, Path(sys.argv[3]), sys.argv[4])
         report = make_report(sys.argv[1], Path(sys.argv[2]), Path(folder))

@@ -5,8 +5,8 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 
-#include "helpers.h"
 #include "geometry/point_tree.h"
+#include "helpers.h"
 #include "quality/triangle_samples.h"
 
 namespace hexwright {
