@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "hexwright/base/assert.h"
 #include "hexwright/quality/hex_quality.h"
 
@@ -80,6 +82,21 @@ void require_consistent(const FitOptions& options) {
   }
 }
 
+/// Without carving the whole mesh stands for the object, so both must lie at the same place.
+void require_same_place(const HexMesh& mesh, const SurfaceTree& surface) {
+  constexpr double kMaxRatio = 4;
+  Box3 box;
+  for (const auto& hex : mesh.hexes)
+    for (VertId v : hex) box.extend(mesh.positions[v]);
+  const double ratio = box.diagonal() / surface.box().diagonal();
+  const double apart = distance(box.center(), surface.box().center()) / surface.box().diagonal();
+  if (ratio <= kMaxRatio && ratio >= 1 / kMaxRatio && apart <= 1) return;
+  throw Error(ErrorCode::BadGeometry,
+              fmt::format("the mesh is {:.3g} times as large as the surface and lies {:.3g} of its "
+                          "diagonals away; give both the same units and origin",
+                          ratio, apart));
+}
+
 class Fitter {
  public:
   Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
@@ -90,7 +107,10 @@ class Fitter {
         clock_(context, report_.seconds, report_.processor_seconds) {}
 
   FitResult run(const HexMesh& background) {
-    clock_.run("check input", 0.0, [&] { require_valid(background); });
+    clock_.run("check input", 0.0, [&] {
+      require_valid(background);
+      if (!options_.do_carve) require_same_place(background, surface_);
+    });
     std::optional<FitState> kept;
     clock_.run("carve", 0.02, [&] { kept = keep_hexes(background); });
     const FitState& carved = *kept;

@@ -64,6 +64,17 @@ void compare_topology(Verdict& verdict, const JudgeOptions& options) {
                                            verdict.topology.genus(), verdict.surface->genus()));
 }
 
+/// Other units or another origin are the likely cause.
+void warn_of_other_place(Verdict& verdict) {
+  constexpr double kFarOff = 0.5;
+  const double apart = verdict.distance->max_two_way();
+  if (apart > kFarOff)
+    verdict.warnings.push_back(
+        fmt::format("the mesh and the surface lie up to {:.3g} diagonals of the surface apart: do "
+                    "they have the same units and origin?",
+                    apart));
+}
+
 }  // namespace
 
 Verdict judge(const HexMesh& mesh, const JudgeOptions&, const Context& context) {
@@ -80,6 +91,7 @@ Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOption
   verdict.surface = compute_topology(surface.surface());
   compare_topology(verdict, options);
   verdict.distance = measure_distance(mesh, surface, options.distance);
+  warn_of_other_place(verdict);
   context.check_cancelled();
   context.progress("check", 0.9);
   const FeatureGraph features = extract_features(surface, options.features);

@@ -36,6 +36,9 @@ constexpr double kCountingRadius = 0.004;
 /// Tests per chunk of samples; the last one's outcome holds for the rest.
 constexpr int kMaxTests = 16;
 
+/// A boundary this many times as large as the surface is sampled relative to its own size.
+constexpr double kFarLarger = 3;
+
 struct Target {
   const SurfaceTree& tree;
   double hot_distance = 0;  // infinity when hot samples are not wanted
@@ -156,10 +159,15 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double diagonal = surface.box().diagonal();
   if (!(diagonal > 0))
     throw Error(ErrorCode::BadGeometry, "the surface has no extent to measure distances by");
-  const double spacing = options.spacing * diagonal;
   const double hot = options.hot_threshold > 0 ? options.hot_threshold * diagonal
                                                : std::numeric_limits<double>::infinity();
   const SurfaceTree boundary(triangulate_quads(mesh, collect_judged_quads(mesh, options.quads)));
+  const double spacing = options.spacing * diagonal;
+  // A boundary many times as large as the surface (other units) would take that many samples
+  // squared.
+  const bool is_far_larger = boundary.box().diagonal() > kFarLarger * diagonal;
+  const double boundary_spacing =
+      is_far_larger ? options.spacing * boundary.box().diagonal() : spacing;
   const double trusted =
       options.solid_only ? kTrustedDistance * diagonal : std::numeric_limits<double>::infinity();
   const auto is_off_solid = [&](const Vec3& p, double) {
@@ -175,8 +183,9 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   // The winding number of a closed surface changes on it only: there is no hole to close.
   const double trusted_off_surface =
       is_oriented_cycle(surface.surface()) ? std::numeric_limits<double>::infinity() : trusted;
-  const Partial to_surface = measure(
-      boundary.surface(), {surface, hot, closes_hole, trusted_off_surface, radius}, spacing);
+  const Partial to_surface =
+      measure(boundary.surface(), {surface, hot, closes_hole, trusted_off_surface, radius},
+              boundary_spacing);
 
   SurfaceDistance result;
   result.max_to_mesh = max_of(to_mesh) / diagonal;

@@ -132,6 +132,20 @@ TEST(Fit, TakesAMeshThatAlreadyStandsForTheObject) {
   EXPECT_LT(measure_distance(result.mesh, sphere, {}).max_two_way(), 0.02);
 }
 
+TEST(Fit, RefusesAMeshInOtherUnits) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(2)));
+  FitOptions options;
+  options.do_carve = false;
+  for (const double scale : {100.0, 0.01}) {
+    HexMesh cube = test::box_hex_mesh(2, 2, 2);
+    for (Vec3& p : cube.positions) p = scale * (p - Vec3{1, 1, 1});
+    EXPECT_THROW(fit(cube, sphere, options, {}), Error) << scale;
+  }
+  HexMesh away = test::box_hex_mesh(2, 2, 2);
+  for (Vec3& p : away.positions) p.x += 10;
+  EXPECT_THROW(fit(away, sphere, options, {}), Error);
+}
+
 // Four of the eight hexes around a vertex in a screw: their faces there look up, down and sideways,
 // and no direction sees all of them.
 TEST(PadBoundary, LeavesAMeshAloneWhereNoLayerFits) {

@@ -41,6 +41,14 @@ TEST(SurfaceDistance, OfALargerCubeIsKnown) {
   EXPECT_NEAR(distance(d.worst_on_mesh, {0.5, 0.5, 0.5}), (0.5 + e) * kDiagonal, 1e-14);
 }
 
+TEST(SurfaceDistance, OfAMeshInOtherUnitsEndsSoon) {
+  // A thousand times as large: a spacing of 1% of the surface's size would take 1e11 samples.
+  const SurfaceTree surface(test::unit_cube_surface());
+  const auto d = measure_distance(cube_mesh(3, 1000), surface, {.spacing = 0.01});
+  EXPECT_NEAR(d.max_to_surface, 499.5, 1e-9);
+  EXPECT_NEAR(d.max_to_mesh, 499.5 / kDiagonal, 1e-9);
+}
+
 TEST(SurfaceDistance, SeesWhatOneDirectionMisses) {
   // The mesh is half of the surface's box: everything of it is on the surface but one face.
   HexMesh half = cube_mesh(4, 1);

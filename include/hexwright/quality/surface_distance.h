@@ -21,7 +21,9 @@ std::vector<std::array<VertId, 4>> collect_judged_quads(const HexMesh& mesh, Jud
 
 struct DistanceOptions {
   JudgedQuads quads = JudgedQuads::Boundary;
-  double spacing = 0.004;  ///< distance between samples, share of the surface's diagonal
+  /// Distance between samples, share of the surface's diagonal; on a boundary more than three times
+  /// as large, share of its own.
+  double spacing = 0.004;
   double hot_threshold =
       0;  ///< collect samples farther than this (share of the diagonal) into `hot`; 0 = none
   /// Leaves out far samples where surface and solid part by right: on the surface, those that do
