@@ -35,6 +35,11 @@ void polish_worst(FitState& state, const FitTarget& target, const PolishOptions&
 void snap_to_targets(FitState& state, const FitTarget& target, double least_quality,
                      std::span<const char> only = {});
 
+/// Moves corners that are farther than `tolerance` (a length) from their feature point just within
+/// it, where the least scaled Jacobian around stays above min(its present value, `least_quality`)
+/// and above 0. Requires current targets. Returns how many it moved.
+std::size_t meet_corners(FitState& state, double tolerance, double least_quality);
+
 struct LiftOptions {
   double goal = 0.65;  ///< least scaled Jacobian to be content with
   int max_rounds = 20;

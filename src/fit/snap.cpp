@@ -1,3 +1,6 @@
+// Moves boundary vertices onto their targets, one at a time, where quality allows.
+#include <algorithm>
+
 #include "hexwright/base/parallel.h"
 
 #include "fit/finish.h"
@@ -7,21 +10,29 @@
 namespace hexwright::fitting {
 namespace {
 
-void snap_vertex(FitState& state, VertId v, double least_quality) {
+/// Goes a share of the way to the target; stays, and returns false, where that costs too much.
+bool try_move(FitState& state, VertId v, double share, double least_quality) {
   const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
   const Vec3 origin = state.mesh.positions[v];
+  const Vec3 there = origin + share * (state.target[v] - origin);
   const double before = min_scaled_jacobian_around(origin, state.stars[v], positions);
-  int unproven = -1;  // not counted yet
-  double share = 1;
-  for (int attempt = 0; attempt < 5; ++attempt, share *= 0.5) {
-    const Vec3 there = origin + share * (state.target[v] - origin);
-    const double after = min_scaled_jacobian_around(there, state.stars[v], positions);
-    if (!(after > 0 && after >= std::min(before - 1e-9, least_quality))) continue;
-    if (after < kProvenQuality && unproven < 0) unproven = count_unproven_around(state, v);
+  const double after = min_scaled_jacobian_around(there, state.stars[v], positions);
+  if (!(after > 0 && after >= std::min(before - 1e-9, least_quality))) return false;
+  if (after >= kProvenQuality) {
     state.mesh.positions[v] = there;
-    if (after >= kProvenQuality || count_unproven_around(state, v) <= unproven) return;
-    state.mesh.positions[v] = origin;
+    return true;
   }
+  const int unproven = count_unproven_around(state, v);
+  state.mesh.positions[v] = there;
+  if (count_unproven_around(state, v) <= unproven) return true;
+  state.mesh.positions[v] = origin;
+  return false;
+}
+
+void snap_vertex(FitState& state, VertId v, double least_quality) {
+  double share = 1;
+  for (int attempt = 0; attempt < 5; ++attempt, share *= 0.5)
+    if (try_move(state, v, share, least_quality)) return;
 }
 
 }  // namespace
@@ -40,6 +51,17 @@ void snap_to_targets(FitState& state, const FitTarget& target, double least_qual
         },
         64);
   }
+}
+
+std::size_t meet_corners(FitState& state, double tolerance, double least_quality) {
+  std::size_t num_moved = 0;
+  for (VertId v : state.kind.ids()) {
+    if (state.kind[v] != VertKind::Corner || state.stars[v].empty()) continue;
+    if (state.move[v] == MoveIn::Point) continue;
+    const double miss = distance(state.mesh.positions[v], state.target[v]);
+    if (miss > tolerance) num_moved += try_move(state, v, 1 - tolerance / miss, least_quality);
+  }
+  return num_moved;
 }
 
 }  // namespace hexwright::fitting
