@@ -8,13 +8,6 @@
 namespace hexwright::fitting {
 namespace {
 
-// Whether some axis of the hex has neither of its two faces in `faces`.
-bool is_one_thick(unsigned faces) {
-  for (unsigned axis = 0; axis < 3; ++axis)
-    if ((faces >> (2 * axis) & 3u) == 0) return true;
-  return false;
-}
-
 class Approach {
  public:
   Approach(const SetScene& scene, double threshold, std::vector<char>& in_set)

@@ -72,6 +72,20 @@ std::vector<Vec3> find_lost_places(const HexMesh& mesh, const HexFilling& fillin
   return lost;
 }
 
+// Where the set's topology can be at fault: see CarveResult::thin.
+std::vector<Vec3> find_thin_places(const SetScene& scene, const std::vector<char>& is_kept) {
+  constexpr unsigned kAllFaces = 63;
+  std::vector<Vec3> thin;
+  for (HexId h : scene.mesh.hexes.ids()) {
+    if (!scene.filling.is_near[h]) continue;
+    const unsigned on_set = fitting::faces_on_set(scene.neighbors, is_kept, h);
+    const unsigned on_own_kind = is_kept[h.index()] ? on_set : kAllFaces & ~on_set;
+    if (fitting::is_one_thick(on_own_kind) || on_own_kind == kAllFaces)
+      thin.push_back(scene.filling.nearest[h]);
+  }
+  return thin;
+}
+
 void require_positive(double keep_fraction) {
   if (!(keep_fraction > 0 && keep_fraction < 1))
     throw Error(ErrorCode::BadArgument,
@@ -148,6 +162,8 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
 
   CarveResult result;
   result.lost = find_lost_places(background, filling, kept.in_set);
+  if (expected.is_known && count_defects(kept.topology, expected) > 0)
+    result.thin = find_thin_places(scene, kept.in_set);
   result.is_kept = std::move(kept.in_set);
   result.num_flips = kept.repair.num_flips;
   result.num_bad_verts = kept.repair.num_bad_verts;

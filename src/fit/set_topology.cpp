@@ -64,4 +64,10 @@ bool is_disc(unsigned faces) {
   return kTable[faces];
 }
 
+bool is_one_thick(unsigned faces) {
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((faces >> (2 * axis) & 3u) == 0) return true;
+  return false;
+}
+
 }  // namespace hexwright::fitting

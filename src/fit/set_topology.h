@@ -23,4 +23,8 @@ unsigned faces_on_set(const HexNeighbors& neighbors, const std::vector<char>& in
 /// adding or removing it then keeps the set's topology exactly if they are a disc.
 bool is_disc(unsigned faces);
 
+/// Whether some axis of the hex has neither of its two faces in `faces`. With the faces on hexes of
+/// its own kind: whether the hex is all there is of a wall or gap along that axis.
+bool is_one_thick(unsigned faces);
+
 }  // namespace hexwright::fitting

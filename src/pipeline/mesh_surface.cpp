@@ -213,6 +213,7 @@ void map_to_world(const Similarity& frame, MeshResult& result) {
   f.curve_length_mapped *= s;
   for (CurveOutcome& c : f.curves) c.max_residual *= s;
   for (Vec3& p : f.carve.lost) p = frame.to_world(p);
+  for (Vec3& p : f.carve.thin) p = frame.to_world(p);
   for (Miss& m : f.misses) {
     m.position = frame.to_world(m.position);
     m.distance *= s;

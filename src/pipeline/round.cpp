@@ -191,7 +191,12 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   points.insert(points.end(), lost.begin(), lost.end());
   const auto& features = round.refinable_features;
   points.insert(points.end(), features.begin(), features.end());
-  return mark_cells_with_points(round.grid, points, deepest_level(input.options));
+  const int deepest = deepest_level(input.options);
+  std::vector<char> marks = mark_cells_with_points(round.grid, points, deepest);
+  const bool is_any_marked = std::find(marks.begin(), marks.end(), 1) != marks.end();
+  if (is_any_marked || has_expected_topology(input, round)) return marks;
+  // Near enough everywhere, and still pierced or bridged: at parts and gaps about a cell thick.
+  return mark_cells_with_points(round.grid, round.fit.report.carve.thin, deepest);
 }
 
 }  // namespace hexwright

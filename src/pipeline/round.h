@@ -65,7 +65,8 @@ bool is_better(const RoundInput& input, const Round& a, const Round& b);
 /// is missed that this would not mend.
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round);
 
-/// Leaves of the completed grid that hold points the fit missed, of the surface or of its features.
+/// Leaves of the completed grid that hold points the fit missed, of the surface or of its features;
+/// when there are none but the topology is not the surface's, those of thin parts and gaps.
 std::vector<char> mark_misses(const RoundInput& input, const Round& round);
 
 /// Fills `failures` and `warnings` of the result by the gate.

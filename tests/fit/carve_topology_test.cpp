@@ -113,6 +113,22 @@ int count_reachable(unsigned faces) {
   return std::popcount(reached);
 }
 
+// A hole narrower than the hexes is closed at every threshold: the places that could open it are
+// named. A hole that is open needs none.
+TEST(CarveTopology, NamesThePlacesOfAHandleItCannotMake) {
+  const TriMesh narrow = test::torus_surface(1, 0.97, 90, 60);
+  const CarveResult closed =
+      carve(test::grid_around(bounding_box(narrow), 0.3), SurfaceTree(narrow), {}, {});
+  ASSERT_EQ(closed.euler_characteristic, 2);
+  ASSERT_FALSE(closed.thin.empty());
+  double nearest = 10;
+  for (const Vec3& p : closed.thin) nearest = std::min(nearest, std::hypot(p.x, p.y));
+  EXPECT_LT(nearest, 0.3);
+  const TriMesh wide = test::torus_surface(1, 0.4, 60, 30);
+  EXPECT_TRUE(
+      carve(test::grid_around(bounding_box(wide), 0.13), SurfaceTree(wide), {}, {}).thin.empty());
+}
+
 // The table against the definition: a disc is in one piece and has Euler characteristic one.
 TEST(SetTopology, DiscsOfFacesAreConnectedWithCharacteristicOne) {
   for (unsigned faces = 0; faces < 64; ++faces) {

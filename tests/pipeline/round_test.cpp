@@ -112,5 +112,20 @@ TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
   EXPECT_FALSE(is_out_of_proportion(input, far, 100'000));
 }
 
+TEST_F(RoundTest, ThinPlacesAreRefinedOnlyForTopologyAndWhenNothingElseIs) {
+  expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
+  const RoundInput input{tree_, options_, expected_, context_};
+  Round torus = round(0.5, 0.5);
+  torus.grid = make_grid({{0, 0, 0}, 2}, {{0, 0, 0}, {1, 0, 0}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
+  torus.verdict.topology.num_boundary_components = 1;
+  torus.fit.report.carve.thin = {{1, 1, 1}};
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{1, 0}));
+  torus.fit.report.carve.lost = {{3, 1, 1}};
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 1}));
+  torus.fit.report.carve.lost.clear();
+  torus.verdict.topology.boundary_euler_characteristic = 2;
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 0}));
+}
+
 }  // namespace
 }  // namespace hexwright

@@ -46,6 +46,10 @@ struct CarveResult {
   /// Surface points in background hexes where a part or gap thinner than the grid was lost: one per
   /// hex, in order of the hexes.
   std::vector<Vec3> lost;
+  /// Only when the set's topology is not the expected one: surface points in hexes of walls and
+  /// gaps one hex thick, and in hexes whose faces the set's boundary passes by, in order of the
+  /// hexes. Handles too many or too few are at some of them; smaller hexes there may mend it.
+  std::vector<Vec3> thin;
 };
 
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
