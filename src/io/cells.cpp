@@ -36,7 +36,7 @@ class CellsReader {
     if (token.empty()) scanner_.fail("a cell needs four integers: level i j k");
     const std::int64_t value = scanner_.to_integer(token, what);
     if (value < -0x7fffffff || value > 0x7fffffff)
-      scanner_.fail(std::string(what) + " is out of range");
+      scanner_.fail(std::string(what) + " is out of range; correct the line");
     return static_cast<std::int32_t>(value);
   }
 
@@ -65,16 +65,18 @@ class CellsReader {
           const std::int64_t value = words.integer("a root cube");
           if (value < -(1 << 10) || value >= 1 << 10)
             words.fail("the root cube's index " + std::to_string(value) +
-                       " is not within -1024..1023");
+                       " is not within -1024..1023; correct the line");
           i = static_cast<std::int32_t>(value);
         }
         file_.roots.push_back(root);
       }
     } else if (keyword == "origin") {
       file_.frame.origin = words.line_point("the origin");
-      if (words.line_token() != "size") words.fail("expected: # origin x y z size h");
+      if (words.line_token() != "size")
+        words.fail("expected: # origin x y z size h; correct the line");
       file_.frame.root_size = words.real("the size of a root cube");
-      if (!(file_.frame.root_size > 0)) words.fail("the size of a root cube must be positive");
+      if (!(file_.frame.root_size > 0))
+        words.fail("the size of a root cube must be positive; correct the line");
     }
   }
 

@@ -48,7 +48,9 @@ Grid read_grid(const std::filesystem::path& path) {
   try {
     return make_grid(file.frame, std::move(file.roots), file.cells);
   } catch (const Error& error) {
-    throw Error(error.code(), error.what(), path.string());
+    throw Error(error.code(),
+                std::string(error.what()) + "; correct the cells or write the grid again",
+                path.string());
   }
 }
 

@@ -47,8 +47,7 @@ class HexGridReader {
     for (HexId h : file_.hexes.ids()) {
       Box3 box;
       for (VertId v : file_.hexes[h]) box.extend(file_.positions[v]);
-      if (!is_cube(h, box))
-        fail(h.index(), "it is not an axis-aligned cube; a grid has cubes only");
+      if (!is_cube(h, box)) fail(h.index(), "it is not an axis-aligned cube; give a grid of cubes");
       boxes.push_back(box);
     }
     return boxes;
@@ -88,7 +87,7 @@ class HexGridReader {
     const double root = has_frame ? file_.grid_frame[3] : largest;
     log_root_ = static_cast<int>(std::lround(std::log2(root / smallest)));
     if (!(root > 0) || !std::isfinite(root) || log_root_ < 0 || log_root_ > kMaxGridLevel)
-      fail(smallest_hex, "its size is not within 1 to 2^-20 of a root cube's; refine less");
+      fail(smallest_hex, "its size is not within 1 to 2^-20 of a root cube's; give a coarser grid");
     unit_ = std::ldexp(root, -log_root_);
     const auto& frame = file_.grid_frame;
     origin_ = has_frame ? Vec3{frame[0], frame[1], frame[2]} : all.lo;
@@ -105,7 +104,7 @@ class HexGridReader {
     cube.log_size = static_cast<int>(std::lround(std::log2(edge)));
     const double exact = std::ldexp(1.0, cube.log_size);
     if (std::abs(edge - exact) > kCubeTolerance * exact || cube.log_size > log_root_)
-      fail(hex, "its edge is no power of two times that of the smallest cell");
+      fail(hex, "its edge is no power of two times that of the smallest cell; give an octree");
     for (int axis = 0; axis < 3; ++axis) {
       const double x = (box.lo[axis] - origin_[axis]) / unit_;
       const double rounded = std::round(x);
@@ -113,7 +112,7 @@ class HexGridReader {
       const auto size = static_cast<std::int32_t>(exact);
       if (std::abs(x - rounded) > kLatticeTolerance ||
           cube.corner[static_cast<std::size_t>(axis)] % size != 0)
-        fail(hex, "it does not lie on the lattice of its size");
+        fail(hex, "it does not lie on the lattice of its size; give an octree");
     }
     return cube;
   }

@@ -24,12 +24,14 @@ class HtgReader {
 
   GridFile run() {
     grid_ = xml_.root().child("HyperTreeGrid");
-    if (!grid_) fail("there is no HyperTreeGrid element");
+    if (!grid_) fail("there is no HyperTreeGrid element; give a .htg file of VTK 9");
     if (std::string_view(xml_.root().attribute("version").value()) < "2")
       fail("this is version " + std::string(xml_.root().attribute("version").value()) +
            " of the format; write it again with VTK 9.1 or newer");
     if (grid_.attribute("BranchFactor").as_int() != 2)
-      fail("the branch factor is not 2: cells must be split into eight");
+      fail(
+          "the branch factor is not 2: cells must be split into eight; write the grid as an "
+          "octree");
     read_frame();
     read_trees();
     return std::move(file_);
@@ -49,13 +51,15 @@ class HtgReader {
     constexpr const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
     for (int axis = 0; axis < 3; ++axis) {
       const auto coords = named("Grid", kNames[axis], true);
-      if (coords.size() < 2) fail("the grid is not three-dimensional");
+      if (coords.size() < 2) fail("the grid is not three-dimensional; give a grid of volume cells");
       if (axis == 0) file_.frame.root_size = coords[1] - coords[0];
       const double size = file_.frame.root_size;
-      if (!(size > 0) || !std::isfinite(size)) fail("the coordinates of the root cubes are wrong");
+      if (!(size > 0) || !std::isfinite(size))
+        fail("the coordinates of the root cubes do not increase; write the file again");
       for (std::size_t i = 0; i + 1 < coords.size(); ++i)
         if (!(std::abs(coords[i + 1] - coords[i] - size) <= kSpacingTolerance * size))
-          fail(std::string(kNames[axis]) + ": root cells are not cubes of one size");
+          fail(std::string(kNames[axis]) +
+               ": root cells are not cubes of one size; give a grid of cubes");
       file_.frame.origin[axis] = coords[0];
       num_roots_[axis] = static_cast<std::int64_t>(coords.size()) - 1;
     }
@@ -63,7 +67,8 @@ class HtgReader {
 
   LatticeCoord root_of(double tree_id) const {
     const std::int64_t total = num_roots_[0] * num_roots_[1] * num_roots_[2];
-    if (!(tree_id >= 0 && tree_id < static_cast<double>(total))) fail("a tree id is out of range");
+    if (!(tree_id >= 0 && tree_id < static_cast<double>(total)))
+      fail("a tree id is out of range; write the file again");
     auto id = static_cast<std::int64_t>(tree_id);
     LatticeCoord root;
     const bool is_transposed = grid_.attribute("TransposedRootIndexing").as_int() != 0;
@@ -81,19 +86,23 @@ class HtgReader {
     counts_ = named("Trees", "NumberOfVerticesPerDepth", true);
     bits_ = named("Trees", "Descriptors", false);  // absent when nothing is split
     mask_ = named("Trees", "Mask", false);
-    if (depths.size() != tree_ids.size()) fail("the numbers of trees and of depths differ");
+    if (depths.size() != tree_ids.size())
+      fail("the numbers of trees and of depths differ; write the file again");
     for (std::size_t t = 0; t < tree_ids.size(); ++t) read_tree(root_of(tree_ids[t]), depths[t]);
-    if (file_.cells.empty()) fail("the file holds no cell");
+    if (file_.cells.empty()) fail("the file holds no cell; write the file again");
     file_.roots = find_roots(file_.cells);
   }
 
   void read_tree(const LatticeCoord& root, double depth) {
-    if (!(depth >= 1 && depth <= kMaxGridLevel + 1)) fail("a tree is deeper than 20 levels");
+    if (!(depth >= 1 && depth <= kMaxGridLevel + 1))
+      fail("a tree's depth is not within 1 to 21; coarsen the grid or write it again");
     std::vector<LatticeCoord> nodes = {root};
     for (int level = 0; level < depth; ++level) {
       if (next_count_ >= counts_.size() ||
           counts_[next_count_++] != static_cast<double>(nodes.size()))
-        fail("the numbers of cells per depth and the descriptors differ; the file is damaged");
+        fail(
+            "the numbers of cells per depth and the descriptors differ; the file is damaged, "
+            "write it again");
       std::vector<LatticeCoord> children;
       for (const LatticeCoord& node : nodes) {
         const bool is_hidden = next_node_ < mask_.size() && mask_[next_node_] != 0;
@@ -104,15 +113,17 @@ class HtgReader {
         else if (!is_hidden)
           file_.cells.push_back({level, node});
         else if (level > 0)
-          fail("a masked cell inside a root cube; grids without all their cells are not supported");
+          fail("a masked cell inside a root cube; give the grid with all its cells");
       }
       nodes = std::move(children);
     }
-    if (!nodes.empty()) fail("a tree's depth and its descriptors differ; the file is damaged");
+    if (!nodes.empty())
+      fail("a tree's depth and its descriptors differ; the file is damaged, write it again");
   }
 
   bool next_bit() {
-    if (next_bit_ >= bits_.size()) fail("the descriptors end too early; the file is truncated");
+    if (next_bit_ >= bits_.size())
+      fail("the descriptors end too early: the file is truncated; write it again");
     return bits_[next_bit_++] != 0;
   }
 

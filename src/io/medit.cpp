@@ -92,7 +92,8 @@ class MeditReader {
     const std::int64_t ref = scanner_.integer("an element's reference");
     if (ref < std::numeric_limits<std::int32_t>::min() ||
         ref > std::numeric_limits<std::int32_t>::max())
-      scanner_.fail("the reference " + std::to_string(ref) + " does not fit in 32 bits");
+      scanner_.fail("the reference " + std::to_string(ref) +
+                    " does not fit in 32 bits; correct it or export the file again");
     return static_cast<std::int32_t>(ref);
   }
   template <std::size_t N>
@@ -142,7 +143,7 @@ class MeditReader {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (!is_letter(keyword[0]))
       scanner_.fail("expected the name of a section, found " + in_quotes(keyword) +
-                    "; a count above is wrong or this is no MEDIT file");
+                    "; a count above is wrong or this is no MEDIT file, export it again");
     bool is_count = true;
     for (auto next = scanner_.peek_token(); !next.empty() && !is_letter(next[0]);
          next = scanner_.peek_token()) {

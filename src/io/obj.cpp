@@ -48,7 +48,8 @@ class ObjReader {
     const std::int64_t index =
         scanner_.to_integer(token.substr(0, token.find('/')), "a vertex index");
     const auto num_verts = static_cast<std::int64_t>(soup_.positions.size());
-    if (index == 0) scanner_.fail("vertex index 0; indices of this format start at 1");
+    if (index == 0)
+      scanner_.fail("vertex index 0; indices of this format start at 1, correct the line");
     if (index < -num_verts || index > static_cast<std::int64_t>(kMaxElements)) fail_range(index);
     if (index > largest_index_) {
       largest_index_ = index;
@@ -75,7 +76,8 @@ class ObjReader {
       if (keyword == known) return;
     for (char c : keyword)
       if (c < 32 || c > 126)
-        scanner_.fail("this is no text line of an OBJ file; is it really an OBJ file?");
+        scanner_.fail(
+            "this is no text line of an OBJ file; check that it is one, or export it again");
     if (has_warned_) return;
     has_warned_ = true;
     source_.warnings.push_back("line " + std::to_string(scanner_.line()) + ": keyword " +

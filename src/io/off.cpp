@@ -80,7 +80,8 @@ PolygonSoup read_off(const SurfaceSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const OffCounts counts = read_off_header(scanner);
   if (counts.verts > kMaxElements || counts.faces > kMaxElements)
-    scanner.fail("the counts of vertices and faces exceed 2^31; the file is damaged");
+    scanner.fail(
+        "the counts of vertices and faces exceed 2^31; the file is damaged, export it again");
   PolygonSoup soup;
   read_off_vertices(scanner, counts.verts, soup);
   std::size_t num_left_out = 0;

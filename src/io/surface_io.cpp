@@ -64,7 +64,8 @@ std::optional<SurfaceFormat> find_format_by_extension(const FileBytes& file,
   if (extension == ".off") return kOff;
   if (extension == ".stl") return kStlBinary;
   if (extension == ".ply")
-    throw bad_file(file.name, "the file does not begin with 'ply'; it is no PLY file");
+    throw bad_file(file.name,
+                   "the file does not begin with 'ply': it is no PLY file; export it again");
   return std::nullopt;
 }
 

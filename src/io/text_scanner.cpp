@@ -20,6 +20,12 @@ bool is_tiny(std::string_view token) {
   return token.find('.') < 3;
 }
 
+/// std::from_chars knows no plus sign. "+-1" keeps its own, which makes it no number.
+std::string_view without_plus(std::string_view token) {
+  const bool has_plus = token.size() >= 2 && token[0] == '+' && token[1] != '-';
+  return token.substr(has_plus ? 1 : 0);
+}
+
 }  // namespace
 
 TextScanner::TextScanner(std::string_view text, std::string file_name)
@@ -113,8 +119,7 @@ std::string_view TextScanner::peek_token() {
 /// Locale-free and exact to the last bit. Too small to be told from zero is zero; too large is an
 /// error, as is anything after the number.
 double TextScanner::to_real(std::string_view token, const char* what) const {
-  std::string_view digits = token;
-  if (!digits.empty() && digits[0] == '+') digits.remove_prefix(1);
+  const std::string_view digits = without_plus(token);
   double value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && is_tiny(digits)) return 0;
@@ -128,8 +133,7 @@ double TextScanner::to_real(std::string_view token, const char* what) const {
 }
 
 std::int64_t TextScanner::to_integer(std::string_view token, const char* what) const {
-  std::string_view digits = token;
-  if (!digits.empty() && digits[0] == '+') digits.remove_prefix(1);
+  const std::string_view digits = without_plus(token);
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || stop != digits.data() + digits.size())

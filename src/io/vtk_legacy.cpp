@@ -1,5 +1,8 @@
 // Legacy VTK files (.vtk): reads unstructured grids in text and binary form, versions 2 to 5.1;
 // writes version 4.2 in binary form.
+#include <algorithm>
+#include <limits>
+
 #include "io/byte_reader.h"
 #include "io/file_bytes.h"
 #include "io/polygon_soup.h"
@@ -66,13 +69,16 @@ class VtkLegacyReader {
     const std::string_view first = scanner_.rest_of_line();
     constexpr std::string_view kMark = "# vtk DataFile Version ";
     if (!first.starts_with(kMark))
-      TextScanner::fail_at(source_.name, 1,
-                           "the file does not begin with '# vtk DataFile Version'");
+      TextScanner::fail_at(
+          source_.name, 1,
+          "the file does not begin with '# vtk DataFile Version'; give a legacy VTK "
+          "file or name it by its own format");
     is_version_5_ = first.size() > kMark.size() && first[kMark.size()] >= '5';
     scanner_.rest_of_line();  // title
     const std::string mode = upper(scanner_.line_token());
     if (mode != "ASCII" && mode != "BINARY")
-      scanner_.fail("expected ASCII or BINARY, found " + in_quotes(mode));
+      scanner_.fail("expected ASCII or BINARY, found " + in_quotes(mode) +
+                    "; export the file again");
     is_binary_ = mode == "BINARY";
     scanner_.next_line();
   }
@@ -86,8 +92,9 @@ class VtkLegacyReader {
     } else if (keyword == "CELLS") {
       is_version_5_ ? read_cells_5() : read_cells();
     } else if (keyword == "CELL_TYPES") {
-      for (double type : values("int", scanner_.count("the number of cell types")))
-        grid_.types.push_back(static_cast<std::int32_t>(type));
+      // What is beyond a byte is none of VTK's types.
+      for (std::int64_t type : integers("int", scanner_.count("the number of cell types")))
+        grid_.types.push_back(static_cast<std::int32_t>(std::clamp<std::int64_t>(type, -1, 255)));
     } else if (keyword == "CELL_DATA" || keyword == "POINT_DATA") {
       is_cell_data_ = keyword == "CELL_DATA";
       is_point_data_ = !is_cell_data_;
@@ -127,7 +134,7 @@ class VtkLegacyReader {
       values(is_binary_ ? "unsigned_char" : "float", product(size, 4));
     } else {
       scanner_.fail("unknown section " + in_quotes(keyword) +
-                    "; a count above is wrong, or the file is damaged");
+                    "; a count above is wrong, or the file is damaged: export it again");
     }
   }
 
@@ -136,7 +143,8 @@ class VtkLegacyReader {
     const auto token = scanner_.line_token();
     const std::size_t components =
         token.empty() ? 1 : static_cast<std::size_t>(scanner_.to_integer(token, "a count"));
-    if (components < 1 || components > 4) scanner_.fail("scalars have one to four components");
+    if (components < 1 || components > 4)
+      scanner_.fail("scalars have one to four components; export the file again");
     if (upper(scanner_.peek_token()) == "LOOKUP_TABLE") {
       scanner_.token();
       scanner_.line_token();
@@ -189,8 +197,10 @@ class VtkLegacyReader {
       for (std::size_t i = 0; i < count; ++i) {
         const auto token = scanner_.token();
         if (token.empty()) scanner_.fail_at_end("a value");
-        result.push_back(equals_ignoring_case(token, "nan") ? 0
-                                                            : scanner_.to_real(token, "a value"));
+        // Data may hold it; points and indices are checked by those who read them.
+        result.push_back(equals_ignoring_case(token, "nan")
+                             ? std::numeric_limits<double>::quiet_NaN()
+                             : scanner_.to_real(token, "a value"));
       }
       return result;
     }
@@ -217,6 +227,12 @@ class VtkLegacyReader {
 
   std::vector<std::int64_t> integers(std::string_view type_name, std::size_t count) {
     std::vector<std::int64_t> result;
+    if (!is_binary_) {  // token by token, so that an error has its own line
+      if (count > scanner_.bytes_left() / 2 + 1) fail_size();
+      result.reserve(count);
+      for (std::size_t i = 0; i < count; ++i) result.push_back(scanner_.integer("an index"));
+      return result;
+    }
     constexpr double kLargestExact = 9007199254740992.0;
     for (double value : values(type_name, count)) {
       if (!(value >= -kLargestExact && value <= kLargestExact))
@@ -274,7 +290,8 @@ class VtkLegacyReader {
   void expect(const char* keyword) {
     const auto token = scanner_.token();
     if (!equals_ignoring_case(token, keyword))
-      scanner_.fail(std::string("expected ") + keyword + ", found " + in_quotes(token));
+      scanner_.fail(std::string("expected ") + keyword + ", found " + in_quotes(token) +
+                    "; export the file again");
   }
 
   const VolumeSource& source_;

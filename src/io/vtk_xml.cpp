@@ -89,7 +89,9 @@ void VtkXmlFile::parse_xml(std::string_view text) {
                     "); export or download the file again",
                 source_.name + ":" + std::to_string(line_of(text, result.offset)));
   root_ = document_.child("VTKFile");
-  if (!root_) throw bad_file(source_.name, "there is no VTKFile element; this is no file of VTK");
+  if (!root_)
+    throw bad_file(source_.name,
+                   "there is no VTKFile element: this is no file of VTK; give a .vtu or .htg file");
 }
 
 /// The bytes of one array, from wherever its format says they are. An offset behind the end means a
@@ -141,7 +143,8 @@ std::vector<double> VtkXmlFile::values(const pugi::xml_node& array) const {
       values.push_back(type.read(bytes.data() + at, format_.order));
     return values;
   }
-  throw Error(ErrorCode::BadFile, "unknown number type " + in_quotes(type_name), where);
+  throw Error(ErrorCode::BadFile,
+              "unknown number type " + in_quotes(type_name) + "; export the file again", where);
 }
 
 VtkXmlWriter::VtkXmlWriter(const std::string& type, const std::string& version)

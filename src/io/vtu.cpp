@@ -34,7 +34,8 @@ class VtuReader {
   void read_piece(const pugi::xml_node& piece) {
     const auto points = file_.values(piece.child("Points").child("DataArray"));
     if (points.size() % 3 != 0)
-      throw bad_element(file_.name(), "Points", "the number of coordinates is no multiple of 3");
+      throw bad_element(file_.name(), "Points",
+                        "the number of coordinates is no multiple of 3; export the file again");
     const auto first_vert = static_cast<std::int64_t>(grid_.positions.size());
     for (std::size_t i = 0; i < points.size(); i += 3) {
       const Vec3 p = {points[i], points[i + 1], points[i + 2]};
@@ -74,11 +75,15 @@ class VtuReader {
   }
 
   /// Values are appended behind `num_before` entries of earlier pieces (0 where those had none).
+  /// Labels have one component; other arrays of cells are passed over, so that no number of
+  /// components that a file claims is ever multiplied by a number of cells.
   void read_data(const pugi::xml_node& parent, VtkArrays& out, std::size_t num_before) {
     for (const auto node : parent.children("DataArray")) {
       if (std::strcmp(node.attribute("type").value(), "String") == 0) continue;
+      const std::size_t num_components = node.attribute("NumberOfComponents").as_uint(1);
+      if (num_before > 0 && num_components != 1) continue;
       VtkArray& array = out[node.attribute("Name").value()];
-      array.num_components = node.attribute("NumberOfComponents").as_uint(1);
+      array.num_components = num_components;
       array.values.resize(num_before * array.num_components);
       const auto values = file_.values(node);
       array.values.insert(array.values.end(), values.begin(), values.end());
