@@ -84,6 +84,7 @@ void print_verdict(const Grid& grid, const GridCheck& check, const GridVerdict& 
 
 }  // namespace
 
+/// The report is written before anything is printed, so that a closed pipe loses no result.
 void check_grid(const GridCheck& check, Program& program) {
   const Grid grid = read_grid(check.input);  // throws when the cells do not tile the roots
   const GridVerdict verdict = judge_grid(grid, check);

@@ -29,6 +29,7 @@ struct CheckCommand {
   bool is_of_grid() const { return as_grid || has_extension(input, {".cells", ".htg"}); }
 };
 
+/// Files that do not read as grids are simply none; their own errors were reported as meshes.
 bool is_grid(const std::string& path) {
   if (!has_extension(path, grid_extensions())) return false;
   try {
@@ -38,6 +39,9 @@ bool is_grid(const std::string& path) {
   }
 }
 
+/// Against a surface, the mesh is judged by the features that sizing would see: the angles given,
+/// without short loose creases. Feature files refer to the surface as it was read, before it is
+/// prepared.
 Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
   const Context context = program.console.start(cmd.reference);
   JudgeOptions options;

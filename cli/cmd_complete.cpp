@@ -15,6 +15,7 @@
 namespace hexwright::cli {
 namespace {
 
+/// What the command line says.
 struct CompleteCommand {
   std::string input, output, report;
   CompleteOptions options;
@@ -49,6 +50,7 @@ CompleteResult complete_by_program(const CompleteCommand& cmd, const Grid& grid,
 #endif
 }
 
+/// Outputs are checked before the work: a run of minutes must not end at a missing folder.
 void run(const CompleteCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report});
   require_extension(cmd.output, grid_extensions());

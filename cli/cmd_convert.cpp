@@ -21,6 +21,8 @@ struct ConvertCommand {
 const std::vector<std::string> kSurfaceExtensions = {".obj", ".off", ".stl", ".ply"};
 const std::vector<std::string> kGridOnlyExtensions = {".cells", ".htg"};
 
+/// The kind follows from the extensions; a .vtu or .mesh may hold a mesh or a grid, and counts as a
+/// mesh unless the other name or --grid says otherwise.
 void run(const ConvertCommand& cmd, Program& program) {
   check_outputs({cmd.output});
   if (has_extension(cmd.input, kSurfaceExtensions)) {

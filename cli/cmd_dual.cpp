@@ -21,6 +21,8 @@ struct DualCommand {
   bool no_optimize = false;
 };
 
+/// `auto` looks for blocks and takes sheets where there are none. What the mode needs is checked
+/// first: a message that names the command to run is worth more than a dual that fails half-way.
 void run(const DualCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report}, {cmd.input});
   require_extension(cmd.output, hex_mesh_extensions());

@@ -23,6 +23,7 @@ struct FitCommand {
   FitOptions options;
 };
 
+/// The result is judged as `check` would judge it, and decides the exit code.
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
   require_extension(cmd.output, hex_mesh_extensions());

@@ -21,6 +21,7 @@ struct GridCommand {
   MeshOptions options;
 };
 
+/// The loop of `mesh` is not run here; --no-loop sets the stricter criterion that stands in for it.
 void run(const GridCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report}, {cmd.input, cmd.features});
   require_extension(cmd.output, grid_extensions());

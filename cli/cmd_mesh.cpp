@@ -18,6 +18,7 @@
 namespace hexwright::cli {
 namespace {
 
+/// What the command line says; empty names = not asked for.
 struct MeshCommand {
   std::string input, output, report, picture, grid, features;
   bool no_loop = false;
@@ -33,6 +34,8 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
 }
 
+/// A mesh that fails the gate is written all the same, with its failures on stderr and exit code 1:
+/// to look at it is the way to see why. Only an empty one leaves no file.
 void run(const MeshCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input, cmd.features});
   if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});

@@ -18,6 +18,7 @@ struct PictureCommand {
   int width = 1200, height = 900;
 };
 
+/// `none` keeps the direction of the automatic view, so that pictures with and without cut compare.
 void run(const PictureCommand& cmd, Program& program) {
   check_outputs({cmd.output});
   require_extension(cmd.output, {".png"});

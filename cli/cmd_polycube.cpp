@@ -41,6 +41,7 @@ nlohmann::ordered_json folded_to_json(const std::vector<FoldedHex>& folded) {
   return json;
 }
 
+/// Keys as documented in docs/cli.md; tets count from 1, as in the files.
 std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
   nlohmann::ordered_json json;
   json["polycube"] = {{"tets", r.num_tets},
@@ -103,6 +104,8 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
   };
 }
 
+/// The reference of the judgement is the object's own boundary, whose edges between charts are
+/// labelled by the map; creases by angle are switched off by an angle that no edge reaches.
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
   require_extension(cmd.output, hex_mesh_extensions());

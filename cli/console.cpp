@@ -27,11 +27,15 @@ bool is_terminal() {
 
 }  // namespace
 
+/// Stages look at the flag at their next check and end with Error{Cancelled}; nothing is written
+/// then.
 void install_interrupt_handler() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
 }
 
+/// Progress only on a terminal: logs would fill with carriage returns. The number of threads holds
+/// while the console lives.
 Context Console::start(std::string about) {
   limit_ = std::make_unique<ThreadLimit>(num_threads);
   Context context;
@@ -72,6 +76,7 @@ void Console::print_block(std::string_view text) {
   std::fflush(stdout);  // progress lines of a long run are read as they come
 }
 
+/// Warnings and errors go to stderr even when quiet; stdout is for results.
 void Console::warn(std::string_view message) {
   clear_progress();
   fmt::print(stderr, "warning: {}\n", message);

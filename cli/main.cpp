@@ -14,6 +14,7 @@
 namespace hexwright::cli {
 namespace {
 
+/// Documented in docs/cli.md; scripts depend on them.
 int exit_code_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::BadArgument:
@@ -49,6 +50,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_bench_one_command(app, program);
 }
 
+/// No exception leaves: each becomes one line on stderr and an exit code.
 int run(int argc, char** argv) {
   Program program;
   program.executable = argv[0];

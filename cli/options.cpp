@@ -43,6 +43,7 @@ void add_choice(CLI::App& cmd, const std::string& name, Enum& value,
 
 }  // namespace
 
+/// Signs, fractions, exponents and overflow are refused, which the parser alone would let through.
 CLI::Validator whole_count() {
   const auto check = [](const std::string& text) {
     std::uint64_t value = 0;
@@ -54,6 +55,7 @@ CLI::Validator whole_count() {
   return {check, "COUNT"};
 }
 
+/// "0.5%" or "0.005"; a share of 1 or more is nearly always a forgotten percent sign.
 double parse_share(const std::string& option, const std::string& text) {
   char* end = nullptr;
   double value = std::strtod(text.c_str(), &end);
@@ -160,6 +162,7 @@ const std::vector<std::string>& grid_extensions() {
   return kExtensions;
 }
 
+/// Before the work, like all checks of outputs.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions) {
   if (!has_extension(path, extensions))
     throw CLI::ValidationError(fmt::format("cannot write '{}': the extension must be one of {}",

@@ -39,6 +39,7 @@ void check_distinct(const std::vector<std::string>& outputs,
 
 }  // namespace
 
+/// Races with other programs are not excluded; the writers report those when they come to it.
 void check_outputs(std::initializer_list<std::string> outputs,
                    std::initializer_list<std::string> inputs) {
   std::vector<std::string> given;

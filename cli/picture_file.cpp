@@ -20,6 +20,8 @@ PictureOptions make_cut_view(int axis, double offset) {
   return options;
 }
 
+/// Cut across the middle one of the box's sides: across the longest the cut face would be the
+/// smallest, across the shortest hardly any depth would be left behind it.
 PictureOptions make_default_view(const HexMesh& mesh) {
   const Vec3 extent = bounding_box(mesh).extent();
   std::array<int, 3> axes = {0, 1, 2};

@@ -9,6 +9,7 @@
 namespace hexwright {
 namespace {
 
+/// Files round coordinates to five or six digits; vertices of a sensible surface are farther apart.
 constexpr double kTolRelDiagonal = 1e-5;
 
 class EdgeWalker {
@@ -49,6 +50,7 @@ class EdgeWalker {
   }
 
   /// The nearest neighbour that lies on the way from v to b; each step shortens the way.
+  /// Progress by more than the tolerance in every step makes the walk end, on whatever surface.
   VertId step_towards(VertId v, const Vec3& b) const {
     const auto& x = surface_.positions;
     const double way = distance(x[v], b);

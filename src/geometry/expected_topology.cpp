@@ -1,4 +1,8 @@
 // Counts the components of a surface that bound the solid, by winding numbers on both sides.
+//
+// The solid is where the winding number exceeds one half. A component with the solid on one side
+// bounds it, one with the solid on both sides lies hidden in it; one that does both overlaps
+// another, and then the union's genus cannot be had by counting.
 #include "hexwright/geometry/expected_topology.h"
 
 #include <algorithm>

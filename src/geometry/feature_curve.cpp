@@ -45,6 +45,7 @@ std::size_t segment_of(const FeatureCurve& curve, double arc) {
   return static_cast<std::size_t>(it - s.begin()) - 1;
 }
 
+/// The best so far of a scan; the lower segment wins among equals.
 struct Nearest {
   double distance_sq = std::numeric_limits<double>::infinity();
   std::size_t segment = 0;
@@ -76,12 +77,14 @@ CurvePoint to_point(const TriMesh& surface, const FeatureCurve& curve, const Nea
           arc_a + (arc_b - arc_a) * n.s, n.distance_sq};
 }
 
+/// A curve of one vertex or without length is that vertex; an empty one is infinitely far.
 CurvePoint degenerate_point(const TriMesh& surface, const FeatureCurve& curve, const Vec3& p) {
   if (curve.verts.empty()) return {{}, {}, 0, std::numeric_limits<double>::infinity()};
   const Vec3 q = vert_at(surface, curve, 0);
   return {q, {}, 0, norm_sq(q - p)};
 }
 
+/// Into [0, length).
 double wrapped(double arc, double length) {
   const double r = std::fmod(arc, length);
   return r < 0 ? r + length : r;

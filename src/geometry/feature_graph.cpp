@@ -21,6 +21,8 @@ namespace {
 /// curve with many twigs would be eaten from its end.
 constexpr int kPruneRounds = 3;
 
+/// Boundary and non-manifold edges are creases whatever their angle. Normals are compared as if
+/// both triangles were oriented alike, so that flipped triangles make no crease.
 bool is_crease(const std::span<const SurfaceEdges::Side> sides, const std::vector<Vec3>& normals,
                double min_cosine) {
   if (sides.size() != 2) return true;
@@ -31,6 +33,7 @@ bool is_crease(const std::span<const SurfaceEdges::Side> sides, const std::vecto
   return (is_consistent ? dot(a, b) : -dot(a, b)) < min_cosine;
 }
 
+/// Sorted, each edge once; the vertices are checked, as they come from files.
 std::vector<std::uint64_t> user_keys(const TriMesh& surface,
                                      std::span<const std::array<VertId, 2>> user_edges) {
   std::vector<std::uint64_t> keys;
@@ -157,6 +160,8 @@ class CreaseGraph {
     std::erase(neighbors_[b], a);
   }
 
+  /// From `start` over `next` until a corner or `start` comes; edges on the way are marked as used.
+  /// Away from corners a vertex has exactly two edges, so the way on is never in doubt.
   FeatureCurve walk(VertId start, VertId next, bool is_closed) {
     FeatureCurve curve;
     curve.is_closed = is_closed;
@@ -203,6 +208,7 @@ class CreaseGraph {
   std::vector<char> is_used_;  // per key, while chaining
 };
 
+/// Chains are made anew after pruning: what a twig cut in two becomes one curve again.
 FeatureGraph extract(const TriMesh& surface, const FeatureOptions& options,
                      const SurfaceTree* tree) {
   EdgesAlong user = find_edges_along(surface, options.extra_segments);

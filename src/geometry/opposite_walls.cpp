@@ -15,6 +15,7 @@ namespace {
 constexpr int kNumRays = 13;
 constexpr double kHalfAngle = 36 * std::numbers::pi / 180;
 constexpr double kFacing = -0.8;  ///< cosine between normals of opposite walls, at most
+/// A gigabyte of results; more means that the spacing is not what the caller had in mind.
 constexpr double kMaxSamples = 2e7;
 
 /// Centroids of the pieces of a triangle bisected across its longest side until no side is longer

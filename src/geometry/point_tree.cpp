@@ -1,3 +1,7 @@
+// An implicit k-d tree: the median of each range of `order_` splits it, so only the axis is stored.
+//
+// Based on: Bentley, "Multidimensional binary search trees used for associative searching", CACM
+// 18(9), 1975.
 #include "geometry/point_tree.h"
 
 #include <algorithm>
@@ -22,6 +26,8 @@ PointTree::PointTree(std::vector<Vec3> points)
   build(0, points_.size());
 }
 
+// Equal coordinates go by index, which makes the order a function of the points and not of the
+// library's nth_element. Points on the split plane may be on both sides of it.
 void PointTree::build(std::size_t begin, std::size_t end) {
   if (end - begin <= kLeafSize) return;
   Box3 box;

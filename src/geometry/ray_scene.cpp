@@ -1,3 +1,5 @@
+// The library traces in floats; what it hits is taken from it, how far that is is computed again in
+// doubles. Rays leave from triangles, so the first hits may be the source itself and are passed.
 #include "geometry/ray_scene.h"
 
 #include <cstring>
@@ -15,6 +17,7 @@ namespace {
 /// Hits nearer than this (unit frame) on triangles that face like the source are the source's own
 /// plane, hit because floats moved the origin off it.
 constexpr double kSelfHit = 1e-5;
+/// Triangles that do not count are passed through so often; then the ray is lost.
 constexpr int kMaxPasses = 8;
 /// Where to go on after a hit that does not count: past it, but not past a wall 1e-7 behind.
 constexpr float kNextHit = 1.000001f, kLeastStep = 1e-9f;

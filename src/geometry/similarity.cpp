@@ -1,3 +1,4 @@
+// The frame is found from halves of coordinates, which neither overflow nor lose a bit.
 #include "hexwright/geometry/similarity.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ Similarity compute_unit_frame(const TriMesh& surface) {
   const double longest_half = std::max({half.x, half.y, half.z});
   if (!(longest_half > 0) || !std::isfinite(longest_half)) return frame;
   frame.center = box.lo * 0.5 + box.hi * 0.5;
+  // The longest side is 2 * longest_half, in [2, 4) * 2^ilogb: scaled by 2^-(ilogb + 1) in [1, 2).
   frame.exponent = std::ilogb(longest_half) + 1;
   return frame;
 }

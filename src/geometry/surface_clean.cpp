@@ -7,6 +7,7 @@
 namespace hexwright {
 namespace {
 
+/// A flip can make a neighbour flat in turn; chains longer than this are not worth the passes.
 constexpr int kFlipPasses = 10;
 
 bool repeats_vertex(const std::array<VertId, 3>& t) {
@@ -47,6 +48,8 @@ class CapFlipper {
   }
 
  private:
+  /// Cap a-b-c with b on ac, and the triangle p-q-d on the other side of ac: the edge ac becomes
+  /// bd. The surface keeps its shape, since b lies on ac. Refused where bd exists already.
   bool flip(TriId cap) {
     auto& tris = surface_.mesh.tris;
     const int k = longest_side(surface_.mesh.corners(cap));
@@ -135,6 +138,7 @@ struct SortedTri {
   TriId tri;
 };
 
+/// The parity of the permutation that sorts the vertices tells the two orientations apart.
 SortedTri sorted(const TriMesh& mesh, TriId t) {
   auto v = mesh.tris[t];
   bool is_even = true;
@@ -167,6 +171,7 @@ std::vector<char> reduce_groups(const TriMesh& mesh, const std::vector<SortedTri
   return is_kept;
 }
 
+/// What keeping these triangles would leave open.
 std::size_t odd_edges_with(const WorkingSurface& surface, const std::vector<char>& is_kept) {
   WorkingSurface reduced = surface;
   reduced.keep(is_kept);

@@ -1,3 +1,5 @@
+// Flood fill for agreement inside components, areas for which way a repaired one looks, winding
+// numbers for what lies inside what, and signed volumes for which way is out.
 #include "geometry/surface_orient.h"
 
 #include <algorithm>
@@ -139,6 +141,8 @@ bool box_inside(const Box3& inner, const Box3& outer) {
   return outer.contains(inner.lo) && outer.contains(inner.hi);
 }
 
+/// Sampled: exact for parts that do not cross each other, which is the only case that has an
+/// answer.
 bool is_inside(const Part& part, const SurfaceTree& other) {
   const std::size_t count = part.mesh.num_tris();
   for (std::size_t i = 0; i < std::min(kNumProbes, count); ++i) {

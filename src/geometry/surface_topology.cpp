@@ -1,4 +1,7 @@
 // Components, Euler characteristic and defects of any triangle soup, by union-find.
+//
+// Euler: V - E + F = 2 (components - genus) on closed manifolds. Vertices that no triangle uses do
+// not count.
 #include "hexwright/geometry/surface_topology.h"
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 namespace hexwright {
 namespace {
 
+/// Number (3 * triangle + k) of the corner that a side's triangle has at one of the side's ends.
 int corner_at(const TriMesh& surface, const SurfaceEdges::Side& side, VertId v) {
   const auto& verts = surface.tris[side.tri];
   const int k = verts[static_cast<std::size_t>(side.k)] == v ? side.k : (side.k + 1) % 3;
@@ -79,6 +83,8 @@ SurfaceTopology compute_topology(const TriMesh& surface) {
   return result;
 }
 
+/// The boundary operator of the triangles as a chain of integers vanishes: each edge is run through
+/// as often one way as the other, whatever the number of triangles around it.
 bool is_oriented_cycle(const TriMesh& surface) {
   struct Edge {
     VertId lo, hi;

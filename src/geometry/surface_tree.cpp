@@ -1,4 +1,8 @@
 // Closest-point queries by ordered descent; winding numbers by far-field expansion.
+//
+// Invariants: box distances are lower bounds of true ones (floats rounded outwards, queries with a
+// slack), so pruning never loses the nearest triangle; ties go to the lowest triangle id, so
+// results depend neither on the tree's shape nor on hints.
 #include "hexwright/geometry/surface_tree.h"
 
 #include <algorithm>
@@ -184,6 +188,8 @@ void SurfaceTree::Impl::test_slot(int slot, const Vec3& p, const ClosestFilter& 
   best = {d, tri, slot, offset};
 }
 
+/// Best first among siblings, depth first among levels: children are pushed farthest first, and
+/// entries that a better find has overtaken are dropped when they are popped.
 template <bool kByNormal, bool kByPatch>
 void SurfaceTree::Impl::search(const Vec3& p, const ClosestFilter& filter, Best& best) const {
   const BoxQuery query(bvh.frame, p);

@@ -34,6 +34,7 @@ std::size_t rename(TriMesh& mesh, UnionFind& sets, const std::vector<VertId>& ca
   return count;
 }
 
+/// Equal positions, by sorting.
 std::size_t weld_equal(TriMesh& mesh, std::vector<VertId> candidates) {
   const auto key = [&](VertId v) {
     const Vec3& p = mesh.positions[v];
@@ -95,6 +96,8 @@ class CellList {
   std::vector<Entry> entries_;
 };
 
+/// Pairs are united when they lie within reach of both. Chains may grow longer than the tolerance;
+/// the caller throws the trial away when that collapses a triangle.
 std::size_t weld_near(TriMesh& mesh, const std::vector<VertId>& candidates, double tolerance) {
   const auto reach = reaches(mesh, tolerance);
   const CellList cells(mesh, candidates, tolerance);
@@ -121,6 +124,8 @@ std::size_t count_odd_edges(const SurfaceEdges& edges) {
   return count;
 }
 
+/// From the finest tolerance up: each is tried on a copy and kept when fewer edges are open
+/// afterwards. Triangles that collapse, or no gain, mean that the vertices were meant to be apart.
 std::size_t weld_open_edges(TriMesh& mesh) {
   SurfaceEdges edges = compute_surface_edges(mesh);
   if (count_odd_edges(edges) == 0) return 0;

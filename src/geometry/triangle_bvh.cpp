@@ -227,6 +227,7 @@ class Builder {
   std::vector<BinaryNode> binary_;
 };
 
+/// A surface that is a point, or too small for its inverse, keeps scale 1.
 BvhFrame frame_of(const Box3& box) {
   BvhFrame frame;
   if (box.is_empty()) return frame;

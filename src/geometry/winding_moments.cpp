@@ -59,6 +59,9 @@ void copy_ball(WindingNode& node, int k) {
   pair.radius_sq[k % 2] = node.pair[0].radius_sq[0];
 }
 
+/// Children first; returns the slots that hang below the node. An unused child gets the ball of
+/// child 0, so that the vectorised test of both never meets an undefined number; without moments it
+/// adds nothing.
 SlotRange fill_node(const TriangleBvh& bvh, const std::vector<TriangleData>& slots, int id,
                     std::vector<WindingNode>& out) {
   const BvhNode& node = bvh.nodes[static_cast<std::size_t>(id)];
@@ -81,6 +84,8 @@ SlotRange fill_node(const TriangleBvh& bvh, const std::vector<TriangleData>& slo
 }
 
 /// The expansions of two children at offsets d from the query (solid angles).
+/// Section 3 of Barill et al.: the dipole, and the first-order term of its Taylor expansion: the
+/// Hessian of 1/r against the moments. `d` runs from the query to the centre.
 Double2 far_field(const WindingNode::Pair& pair, const Double2 d[3], Double2 distance_sq) {
   const Double2 inverse_sq = splat(1.0) / distance_sq;
   const Double2 inverse = {std::sqrt(inverse_sq[0]), std::sqrt(inverse_sq[1])};

@@ -13,6 +13,8 @@ namespace hexwright::io {
 namespace {
 
 // Number of the face S1..S6 of a C3D8 for each of our local faces -x +x -y +y -z +z.
+// Dassault Systemes, "Abaqus Elements Guide", "Three-dimensional solid element library": S1 is
+// nodes 1-2-3-4, S2 5-8-7-6, S3 1-5-6-2, S4 2-6-7-3, S5 3-7-8-4, S6 4-8-5-1.
 constexpr std::array<int, 6> kAbaqusFace = {6, 4, 3, 5, 1, 2};
 
 void write_node_set(TextWriter& out, const std::string& name, std::vector<VertId> nodes) {

@@ -1,4 +1,7 @@
 // Output files that appear whole or not at all.
+//
+// Written beside the target under a name of its own, then renamed over it, which POSIX makes atomic
+// within a file system. A run that is stopped leaves the old file, or none, and never half of one.
 #include "hexwright/io/atomic_file.h"
 
 #include <cerrno>
@@ -45,6 +48,8 @@ std::FILE* create_beside(const fs::path& target, fs::path& created) {
 
 }  // namespace
 
+/// Symbolic links are followed, so that the link stays a link. Devices and pipes cannot be replaced
+/// and are written to directly.
 void write_file_atomically(const fs::path& path, std::string_view content) {
   std::error_code ignored;
   const fs::path resolved =

@@ -1,4 +1,7 @@
 // The .cells format: one leaf per line, `level i j k`; the header stands in comments.
+//
+// Indices count cells of their own level from the low corner of root (0, 0, 0). Plain text, so that
+// grids can be compared and made by hand.
 #include <algorithm>
 
 #include "io/file_bytes.h"

@@ -92,6 +92,8 @@ class ByteStream {
   const std::string& where_;
 };
 
+/// Headers are read through the same stream as the data, for in base64 both may share a group of
+/// letters. All sizes are checked against what is left before memory is taken for them.
 class BlockDecoder {
  public:
   BlockDecoder(std::string_view encoded, const BlockFormat& format, const std::string& where)
@@ -130,6 +132,8 @@ class BlockDecoder {
     return result;
   }
 
+  /// zlib's own checksum finds damage inside of a part; a part must have exactly the announced
+  /// size.
   void append_part(const std::string& packed, std::size_t size, std::string& out) {
     constexpr std::size_t kBestRatio = 1100;  // zlib's limit is 1032 to 1
     if (size / kBestRatio > packed.size()) stream_.fail();
@@ -153,6 +157,8 @@ std::string decode_block(std::string_view encoded, const BlockFormat& format,
   return BlockDecoder(encoded, format, where).run();
 }
 
+/// Parts of a fixed size, compressed independently of each other: any number of threads makes the
+/// same bytes.
 std::string encode_compressed_block(std::string_view data) {
   constexpr std::size_t kPart = std::size_t{1} << 18;
   constexpr int kLevel = 1;  // higher levels are slower and save a twentieth

@@ -12,6 +12,8 @@ namespace {
 
 using Segments = std::vector<std::array<Vec3, 2>>;
 
+/// One pass over the lines. The first line that belongs to one of the two forms decides between
+/// them.
 class FeatureReader {
  public:
   FeatureReader(const FileBytes& file, const TriMesh& surface)

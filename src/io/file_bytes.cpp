@@ -34,6 +34,7 @@ FileBytes read_file(const std::filesystem::path& path) {
   return result;
 }
 
+/// ASCII only: extensions of known formats have no other letters, and locales must not matter.
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {

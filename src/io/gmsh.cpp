@@ -3,6 +3,9 @@
 // Physical groups carry the labels: volumes REGION_r, surfaces PATCH_p, curves CURVE_c and the
 // points CORNERS. Every label is one elementary entity of the same dimension; all nodes belong to
 // the first volume.
+//
+// Based on: Geuzaine, Remacle, "Gmsh reference manual", section "MSH file format", version 4.1. Its
+// hexahedron and quadrilateral have our local order.
 #include <algorithm>
 
 #include "io/element_sets.h"

@@ -12,6 +12,8 @@ namespace hexwright {
 namespace io {
 namespace {
 
+/// A HyperTreeGrid by its first kilobyte, .cells by its extension or a leading number, and whatever
+/// else reads as a volume mesh as a grid of hexes with hanging nodes.
 GridFile read_grid_file(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   FileBytes file = read_file(path);
@@ -27,6 +29,8 @@ GridFile read_grid_file(const std::filesystem::path& path) {
   return hexes_to_grid(read_volume_bytes(source, extension), file.name);
 }
 
+/// The frame travels in the field data: without it a reader cannot know how large the root cubes
+/// are when all of them are split.
 std::string grid_vtu(const Grid& grid) {
   const HexMesh mesh = grid_to_hexes(grid);
   VtkOutput data = make_vtk_output(mesh, {});
@@ -43,6 +47,7 @@ std::string grid_vtu(const Grid& grid) {
 }  // namespace
 }  // namespace io
 
+/// make_grid knows the cell that is wrong but not the file, which is added here.
 Grid read_grid(const std::filesystem::path& path) {
   io::GridFile file = io::read_grid_file(path);
   try {

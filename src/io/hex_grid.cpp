@@ -53,6 +53,7 @@ class HexGridReader {
     return boxes;
   }
 
+  /// Whatever the numbering of its vertices, even inverted: every corner of the box is one of them.
   bool is_cube(HexId h, const Box3& box) const {
     const Vec3 size = box.extent();
     const double edge = std::max({size.x, size.y, size.z});
@@ -98,6 +99,7 @@ class HexGridReader {
     extent_ = all.hi - origin_;
   }
 
+  /// A cell of edge 2^k units starts at a multiple of 2^k units, or it is no cell of an octree.
   LatticeCube to_cube(const Box3& box, std::size_t hex) const {
     const double edge = box.extent().x / unit_;
     LatticeCube cube;
@@ -125,6 +127,9 @@ class HexGridReader {
       ++log_root_;
   }
 
+  /// Sorts the cells into candidate root cubes and compares volumes: cells that are disjoint and
+  /// lie on the lattice fill a cube exactly when their volumes sum to its. (Overlaps are found
+  /// later.)
   bool fills_roots(int log_root) const {
     struct Part {
       LatticeCoord root;
@@ -170,6 +175,7 @@ class HexGridReader {
   std::vector<LatticeCube> cubes_;
 };
 
+/// Lattice coordinates of a hex's local vertex.
 LatticeCoord corner_of(const Grid& grid, CellId c, int lv) {
   const int bits = kHexBitsOfVertex[static_cast<std::size_t>(lv)];
   LatticeCoord p = grid.cells[c].corner;
@@ -196,6 +202,8 @@ GridFile hexes_to_grid(const VolumeFile& file, const std::string& name) {
   return HexGridReader(file, name).run();
 }
 
+/// Vertices are numbered by place (z, y, x), hexes as the cells: the mesh is a function of the
+/// grid.
 HexMesh grid_to_hexes(const Grid& grid) {
   // All corners of all cells, sorted by place: equal ones become one vertex.
   struct Corner {

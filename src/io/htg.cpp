@@ -47,6 +47,8 @@ class HtgReader {
     return {};
   }
 
+  /// One size of root cubes along all axes; coordinates of files are rounded, so sizes are compared
+  /// with a tolerance relative to the cube.
   void read_frame() {
     constexpr const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,6 +67,7 @@ class HtgReader {
     }
   }
 
+  /// Trees are numbered x fastest, or z fastest when transposed.
   LatticeCoord root_of(double tree_id) const {
     const std::int64_t total = num_roots_[0] * num_roots_[1] * num_roots_[2];
     if (!(tree_id >= 0 && tree_id < static_cast<double>(total)))
@@ -93,6 +96,9 @@ class HtgReader {
     file_.roots = find_roots(file_.cells);
   }
 
+  /// Level by level as the file has them. The counts repeat what the descriptors say; a
+  /// disagreement is damage. A masked node is a hole: allowed as a whole root, which is how VTK
+  /// cuts domains out.
   void read_tree(const LatticeCoord& root, double depth) {
     if (!(depth >= 1 && depth <= kMaxGridLevel + 1))
       fail("a tree's depth is not within 1 to 21; coarsen the grid or write it again");
@@ -190,6 +196,8 @@ class HtgTreeBuilder {
   }
 
   /// Consumes the leaves below one node of the given level; they are in Morton order.
+  /// The recursion mirrors Morton order: the next leaf of the grid is always in the subtree at
+  /// hand.
   void descend(int level) {
     const bool is_leaf = grid_.cells[CellId(next_leaf_)].level == level;
     by_level_[static_cast<std::size_t>(level)].push_back(is_leaf ? 0 : 1);

@@ -3,6 +3,9 @@
 //
 // Reference numbers: a hex's is its region; a quad's or edge's is its patch or curve plus one, 0
 // for none.
+//
+// Based on: Frey, "MEDIT: an interactive mesh visualization software", INRIA technical report 253,
+// 2001 (keywords and their fields; indices from 1).
 #include <limits>
 
 #include "io/file_bytes.h"
@@ -122,6 +125,7 @@ class MeditReader {
     }
   }
 
+  /// Quads and edges alike: their vertices, then a reference that is the label plus one.
   template <std::size_t N, class Labeled>
   void read_labels(std::vector<Labeled>& out) {
     const std::size_t count = section_count("the number of labelled elements", N + 1);

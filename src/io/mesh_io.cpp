@@ -12,6 +12,7 @@ namespace hexwright {
 namespace io {
 namespace {
 
+/// The whole file is in memory while it is parsed: readers work on views into it.
 VolumeFile read_volume_file(const std::filesystem::path& path) {
   const FileBytes file = read_file(path);
   return read_volume_bytes({file.bytes, file.name}, lower_extension(path));
@@ -21,12 +22,14 @@ std::string count_of(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
 
+/// For messages about files that are read but hold the wrong kind of element.
 std::string content_of(const VolumeFile& file) {
   return count_of(file.hexes.size(), "hexes, ") + count_of(file.tets.size(), "tets and ") +
          count_of(file.labels.quads.size() + file.labels.edges.size() + file.num_others,
                   "other elements");
 }
 
+/// Before a byte is written, so that a refused mesh leaves no file behind.
 void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
   constexpr std::size_t kMostHexes = 200'000'000;  // 32-bit offsets of the formats
   if (const auto issue = mesh.find_problem())
@@ -47,6 +50,8 @@ void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
 
 }  // namespace
 
+/// Content beats the name: magic words first, and only then the extension, which settles what has
+/// no magic word of its own.
 VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension) {
   const std::string_view bytes = source.bytes;
   if (bytes.empty()) throw bad_file(source.name, "the file is empty; export it again");
@@ -61,6 +66,7 @@ VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& exte
                  "give a MEDIT .mesh, legacy .vtk or .vtu file");
 }
 
+/// Later kinds overwrite earlier ones: a corner lies on edges and quads too.
 std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh) {
   std::vector<std::uint8_t> flags(mesh.num_verts(), 0);
   for (const LabeledQuad& quad : mesh.labels.quads)

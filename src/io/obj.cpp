@@ -1,4 +1,8 @@
 // Reads Wavefront OBJ surfaces: v and f lines; everything else is passed over.
+//
+// Based on: Wavefront, "Advanced Visualizer Manual", appendix B1 (object files).
+// Differs: curves and free-form surfaces are passed over, with a warning for words that are not
+// even of the format.
 #include <array>
 
 #include "io/polygon_soup.h"

@@ -76,6 +76,8 @@ bool is_off_keyword(std::string_view token) {
   return token.empty();
 }
 
+/// Colours and normals behind coordinates and faces are left unread on their lines. Counts are not
+/// trusted with memory: what is missing is found when the text ends.
 PolygonSoup read_off(const SurfaceSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const OffCounts counts = read_off_header(scanner);

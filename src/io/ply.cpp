@@ -2,6 +2,10 @@
 //
 // Vertices are the properties x, y, z of any number type; polygons are the lists vertex_indices (or
 // vertex_index) of element face, or triangle strips (element tristrips). The rest is passed over.
+//
+// Based on: Turk, "The PLY Polygon File Format", 1994.
+// Differs: number types go by their old and new names, strips are read, and lists may come
+// anywhere.
 #include <optional>
 
 #include "io/byte_reader.h"

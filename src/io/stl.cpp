@@ -1,4 +1,9 @@
 // Reads STL surfaces, text and binary. Each facet brings its own three vertices.
+//
+// Based on: 3D Systems, "StereoLithography Interface Specification", 1988 (text: solid, facet,
+// outer loop, vertex; binary: 80 bytes of header, a count, 50 bytes per facet).
+// Differs: normals are recomputed, loops may have more than three vertices, several solids may
+// follow each other, and the count field is checked against the file's size.
 #include "io/byte_reader.h"
 #include "io/file_bytes.h"
 #include "io/polygon_soup.h"
@@ -7,6 +12,7 @@
 namespace hexwright::io {
 namespace {
 
+/// Bytes: free text, text and count, and a facet (12 floats and an attribute that nothing reads).
 constexpr std::size_t kBinaryHeader = 80, kBinaryPrefix = 84, kBinaryFacet = 50;
 
 std::size_t binary_count_field(std::string_view bytes) {
@@ -94,6 +100,7 @@ class StlTextReader {
 
 }  // namespace
 
+/// Binary files may begin with "solid" like text ones; their size gives them away.
 bool is_exact_binary_stl(std::string_view bytes) {
   return bytes.size() > kBinaryPrefix &&
          bytes.size() == kBinaryPrefix + kBinaryFacet * binary_count_field(bytes);

@@ -86,6 +86,7 @@ SurfaceFormat find_format(const FileBytes& file, const std::string& extension,
                  "give an OBJ, OFF, STL or PLY file");
 }
 
+/// Shortest decimal forms that give the same doubles back.
 std::string obj_text(const TriMesh& surface) {
   TextWriter out;
   for (const Vec3& p : surface.positions) out.text("v ").point(p).text("\n");

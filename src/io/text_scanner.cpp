@@ -1,4 +1,6 @@
 // Tokens and numbers of text files.
+//
+// No copies and no locale: tokens are views into the text, numbers go through std::from_chars.
 #include "io/text_scanner.h"
 
 #include <algorithm>

@@ -224,6 +224,7 @@ void add_label_arrays(const BoundaryLabels& labels, VtkOutput& out) {
   }
 }
 
+/// Our local order of all kinds is that of VTK.
 template <class Verts>
 void add_out_cell(const Verts& verts, VtkCellType type, VtkOutput& out) {
   for (VertId v : verts) out.connectivity.push_back(v.value());
@@ -280,6 +281,8 @@ VolumeFile to_volume_file(VtkGrid&& grid, const std::string& file_name) {
   return VtkConverter(std::move(grid), file_name).run();
 }
 
+/// The same content for the legacy and the XML format. `feature` on the points is for looking at;
+/// what is read back are the field arrays.
 VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options) {
   VtkOutput out;
   out.connectivity.reserve(8 * mesh.num_hexes());

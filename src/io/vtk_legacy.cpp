@@ -1,5 +1,9 @@
 // Legacy VTK files (.vtk): reads unstructured grids in text and binary form, versions 2 to 5.1;
 // writes version 4.2 in binary form.
+//
+// Based on: Kitware, "VTK File Formats" (the VTK User's Guide), section "Simple Legacy Formats";
+// version 5.1 as the library writes it. Binary data is big-endian whatever the machine.
+// Differs: sections may come in any order, as the library's own reader accepts them.
 #include <algorithm>
 #include <limits>
 
@@ -25,6 +29,8 @@ double load_as_double(const char* at) {
   return static_cast<double>(load<T>(at, ByteOrder::Big));
 }
 
+/// `long` has eight bytes as on the systems that write such files today; `vtkIdType` is what
+/// version 4 files call their 32-bit ids.
 constexpr VtkNumberType kNumberTypes[] = {
     {"char", 1, load_as_double<std::int8_t>},
     {"signed_char", 1, load_as_double<std::int8_t>},
@@ -112,6 +118,8 @@ class VtkLegacyReader {
     return line.find_first_not_of(" \t\r") == line.npos;
   }
 
+  /// Attributes nobody needs are read over: their sizes follow from their kind, and nothing else
+  /// tells where the next section begins in binary files.
   void read_attribute(const std::string& keyword) {
     if (keyword == "FIELD") return read_field();
     std::size_t components = 0;
@@ -138,6 +146,7 @@ class VtkLegacyReader {
     }
   }
 
+  /// A lookup table's name may follow; the table itself is a section of its own.
   void read_scalars(const std::string& name) {
     const std::string type(scanner_.line_token());
     const auto token = scanner_.line_token();
@@ -152,6 +161,7 @@ class VtkLegacyReader {
     keep(name, components, values(type, product(num_data_, components)));
   }
 
+  /// Arrays of any shape. Strings are kept as lines, and passed over.
   void read_field() {
     scanner_.line_token();  // the field's name
     const std::size_t num_arrays = scanner_.count("the number of arrays");
@@ -173,11 +183,15 @@ class VtkLegacyReader {
     }
   }
 
+  /// By name; a name that comes again replaces what it meant before. Data of points has no use
+  /// here.
   void keep(const std::string& name, std::size_t components, std::vector<double> data) {
     if (is_point_data_) return;
     (is_cell_data_ ? grid_.cell_data : grid_.field_data)[name] = {components, std::move(data)};
   }
 
+  /// Every value takes at least a byte of the file, so a product beyond its size is damage. Divides
+  /// first: the product itself could wrap around.
   std::size_t product(std::size_t a, std::size_t b) const {
     if (b != 0 && a > source_.bytes.size() / b) fail_size();
     return a * b;
@@ -225,6 +239,7 @@ class VtkLegacyReader {
     return scanner_.take(count);
   }
 
+  /// Indices and counts. Doubles hold integers up to 2^53 exactly, far more than ids can have.
   std::vector<std::int64_t> integers(std::string_view type_name, std::size_t count) {
     std::vector<std::int64_t> result;
     if (!is_binary_) {  // token by token, so that an error has its own line
@@ -325,6 +340,8 @@ VolumeFile read_vtk_legacy(const VolumeSource& source) {
   return to_volume_file(VtkLegacyReader(source).run(), source.name);
 }
 
+/// Version 4.2, which every reader takes; 64-bit offsets of version 5 would gain
+/// nothing below 2^31 entries.
 std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options) {
   const VtkOutput data = make_vtk_output(mesh, options);
   const std::size_t num_cells = data.types.size();

@@ -1,4 +1,7 @@
 // Parses and writes VTK's XML files.
+//
+// Based on: Kitware, "VTK XML file formats" (VTK documentation): inline text, inline base64, and
+// appended data, raw or base64; zlib as the only compressor.
 #include "io/vtk_xml.h"
 
 #include <bit>

@@ -41,6 +41,8 @@ SizingResult make_input_grid(const TriMesh& surface, const EvaluateOptions& opti
   return result;
 }
 
+/// The record is filled as far as the work gets: a grid without hexes is a result too, when the
+/// dual runs out of memory.
 void run_method(const Grid& input, const Method& method, const EvaluateOptions& options,
                 const Context& context, MethodRecord& record) {
   Stopwatch clock;

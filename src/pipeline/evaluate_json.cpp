@@ -1,4 +1,7 @@
 // A model's evaluation as JSON.
+//
+// One record per line when not indented (JSON Lines), so that a run that is cut short leaves whole
+// records. Parts that were not run are absent, parts that failed hold their message.
 #include <nlohmann/json.hpp>
 
 #include "hexwright/pipeline/evaluate.h"

@@ -18,6 +18,9 @@ void judge_topology(const RoundInput& input, MeshResult& result) {
         t.num_boundary_components, input.expected.num_components));
 }
 
+/// Up to the tolerance nothing, up to kGateFactor times the tolerance a warning, beyond it a
+/// failure. Only meshes whose sizing aimed at a distance can miss one; around the object the outer
+/// box is no part of the surface.
 void judge_distance(const RoundInput& input, MeshResult& result) {
   if (!result.verdict.distance) return;
   const double distance = result.verdict.distance->max_two_way();
@@ -36,6 +39,7 @@ void judge_distance(const RoundInput& input, MeshResult& result) {
     input.context.warn(message);
 }
 
+/// Inverted hexes are the judge's failure already; a second sentence about them would only blur it.
 void judge_quality(const RoundInput& input, const MeshResult& result) {
   const QualitySummary& q = result.verdict.quality;
   if (q.num_inverted == 0 && q.min_scaled_jacobian < input.options.min_quality)
@@ -43,6 +47,7 @@ void judge_quality(const RoundInput& input, const MeshResult& result) {
                                    q.min_scaled_jacobian, input.options.min_quality));
 }
 
+/// Curves without a path of mesh edges. How closely mapped ones are followed is the judge's figure.
 void judge_features(const RoundInput& input, const MeshResult& result) {
   const FitReport& f = result.fit;
   if (f.num_curves_mapped < f.num_curves)

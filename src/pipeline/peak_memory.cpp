@@ -1,4 +1,6 @@
 // Peak memory of the process.
+//
+// POSIX leaves the unit of ru_maxrss open: Linux counts KiB, macOS bytes.
 #include "hexwright/pipeline/report.h"
 
 #if defined(__unix__) || defined(__APPLE__)

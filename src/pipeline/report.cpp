@@ -1,4 +1,7 @@
 // Writes a run's report as JSON.
+//
+// Keys are an interface: docs/cli.md documents them, scripts and the bench read them. Add keys, but
+// rename or remove none without a note in the changelog. Angles are degrees here, radians inside.
 #include "hexwright/pipeline/report.h"
 
 #include <numbers>
@@ -11,8 +14,10 @@
 namespace hexwright {
 namespace {
 
+// Ordered: reports of two runs can be compared line by line.
 using Json = nlohmann::ordered_json;
 
+// By the values of the enums; the names are those of the command line.
 constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};

@@ -37,6 +37,7 @@ RoundRecord make_record(const Round& round, double seconds) {
   return record;
 }
 
+/// By the boundary and not by the hexes: cavities count as components of it too.
 bool has_expected_topology(const RoundInput& input, const Round& round) {
   if (!input.expected.is_known || input.options.fit.carve.side != Side::Inside) return true;
   const TopologyReport& t = round.verdict.topology;
@@ -93,6 +94,7 @@ bool misses_mean(const RoundInput& input, const Round& round) {
 
 }  // namespace
 
+/// Stages log their own counts, so that a report tells which of them made or lost hexes.
 Round run_round(const RoundInput& input, CompleteResult completed) {
   const Stopwatch clock;
   const MeshOptions& options = input.options;
@@ -159,6 +161,7 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
              kMaxGrowth * static_cast<double>(round.grid.num_cells());
 }
 
+/// Lexicographic: what comes first in the array decides first; the numbers below only break ties.
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
     // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.

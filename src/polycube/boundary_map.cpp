@@ -1,3 +1,5 @@
+// One surface tree per axis direction: a face of the polycube is flat, so the nearest place on it
+// is found among facets of its own direction only, and a query at an edge cannot slip around it.
 #include "polycube/boundary_map.h"
 
 #include <algorithm>
@@ -28,6 +30,8 @@ int BoundaryMap::direction_of(TriId facet) const {
 }
 
 // A facet squeezed to no area in the polycube stands for its first vertex.
+// Barycentric coordinates by areas; clamped, because the hit lies in the facet but for rounding,
+// and a place outside of it would leave the object's surface.
 Vec3 BoundaryMap::carry(const TetMesh& object, const Hit& hit) const {
   const auto& f = lattice_.facets[hit.facet];
   const auto& flat = lattice_.tets.positions;

@@ -1,6 +1,9 @@
 // Charts are grown over facets of equal direction; each axis is then mapped piecewise linearly so
 // that its planes land on integers. Two planes never fall together, however thin the part between
 // them.
+//
+// Based on: Pitzalis et al. 2021, section 6.2.
+// Differs: planes keep their own distances, as the nearest number of cubes of the spacing.
 #include "polycube/lattice.h"
 
 #include <algorithm>
@@ -100,6 +103,8 @@ IdVector<TriId, int> facet_directions(const Lattice& lattice, std::size_t& num_u
   return direction;
 }
 
+// Flood fill over facets of equal direction that share an edge. A direction of -1 (unaligned,
+// without an aligned neighbour) cannot occur but in a component made of such facets alone.
 void grow_charts(Lattice& lattice, const IdVector<TriId, int>& direction,
                  const IdVector<TriId, std::array<TriId, 3>>& neighbor) {
   lattice.facet_to_chart.assign(lattice.facets.size(), -1);
@@ -167,6 +172,8 @@ AxisPlanes find_planes(Lattice& lattice, double extent) {
   return planes;
 }
 
+// The closest two planes get one cube between them, but an extent of more than 16 cubes is left to
+// the adaptive refinement: roots are for topology, not for resolution.
 double derive_spacing(const AxisPlanes& planes, double extent) {
   double least = extent;
   for (const auto& p : planes)
@@ -174,6 +181,8 @@ double derive_spacing(const AxisPlanes& planes, double extent) {
   return std::max(least, extent / kMostCubesPerAxis);
 }
 
+// The first plane is 0. Neighbouring planes differ by at least one, so nothing between two
+// of them collapses on the lattice.
 std::vector<int> integer_planes(const std::vector<double>& planes, double spacing) {
   std::vector<int> result(planes.size(), 0);
   for (std::size_t i = 1; i < planes.size(); ++i)
@@ -201,6 +210,7 @@ std::size_t nearest_plane(const std::vector<double>& planes, double x) {
 }
 
 // Puts each chart's vertices exactly on its integer plane, measuring how far they were.
+// Vertices shared by charts of two axes are put on both planes, since each sets its own coordinate.
 void flatten_charts(Lattice& lattice) {
   for (TriId t : lattice.facets.ids()) {
     const Chart& chart = lattice.charts[static_cast<std::size_t>(lattice.facet_to_chart[t])];
@@ -218,6 +228,8 @@ void flatten_charts(Lattice& lattice) {
   }
 }
 
+// Centres of lattice cubes are half a cube away from every plane: the winding number is never asked
+// near the boundary.
 void collect_roots(Lattice& lattice, const std::array<int, 3>& size) {
   TriMesh boundary;
   boundary.positions = lattice.tets.positions;

@@ -1,3 +1,10 @@
+// Every vertex of the lattice mesh goes the way of what it lies on: inside through a tet, on a face
+// through a facet of that face, on an edge of the polycube along its chain of mesh edges, on a
+// corner to the corner. So faces, edges and corners of the polycube become those of the object
+// exactly, and neighbouring facets meet in the same points.
+//
+// Based on: Pitzalis et al. 2021, section 6.2 (vertices by barycentric coordinates in tets).
+// Differs: boundary vertices do not go through tets, which are often flat at the boundary.
 #include "polycube/map_back.h"
 
 #include <algorithm>
@@ -38,6 +45,7 @@ std::vector<Crease> find_creases(const Lattice& lattice, const BoundaryMap& boun
   return creases;
 }
 
+// Lattice planes are integers; vertices of the dual mesh that lie on them were put there exactly.
 bool is_on_lattice_plane(double x) { return std::abs(x - std::round(x)) < 1e-9; }
 
 // The directions (bit per 2 * axis + up) of the boundary quads at each vertex; 0 inside.
@@ -129,17 +137,21 @@ class Mapper {
         is_bridged = at.is_bridged;
         return interpolate(object_, at);
       }
+      // One direction: inside a face.
       case 1: {
         const auto hit = boundary_.closest(p, std::countr_zero(bits));
         place.facet = hit.facet;
         return boundary_.carry(object_, hit);
       }
+      // Two: on an edge between faces of these directions. Where the lattice merged the one chart
+      // away there is no such edge, and the vertex stays on a face.
       case 2: {
         const CreasePoint at = closest_crease(lattice_, creases_, directions, p);
         if (!at.verts[0].is_valid()) return map(p, 1 << std::countr_zero(bits), place, is_bridged);
         place.crease = at.verts;
         return object_.positions[at.verts[0]] * (1 - at.t) + object_.positions[at.verts[1]] * at.t;
       }
+      // Three or more: a corner.
       default:
         place.corner = closest_corner(lattice_, corners_, directions, p);
         return object_.positions[place.corner];

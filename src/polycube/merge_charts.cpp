@@ -1,3 +1,5 @@
+// Gives away the smallest chart first, to the neighbour in whose plane it nearly lies, until all
+// are large enough for the lattice; then joins charts that have become neighbours on one plane.
 #include "polycube/merge_charts.h"
 
 #include <algorithm>
@@ -7,9 +9,11 @@
 namespace hexwright::polycube {
 namespace {
 
+// In lattice squares: a chart smaller than this has no quad of the coarsest mesh to itself.
 constexpr double kLeastSquares = 0.25;
 constexpr double kCoplanar = 0.1;  // share of the spacing
 
+// In the input's units, before the lattice is known.
 std::vector<double> chart_areas(const Lattice& lattice) {
   std::vector<double> area(lattice.charts.size(), 0);
   const auto& p = lattice.tets.positions;
@@ -105,6 +109,8 @@ std::size_t merge_small_charts(Lattice& lattice,
         if (chart == smallest) chart = heir;
       ++num_merged;
     }
+    // Also without an heir (a whole component of the boundary may be one small chart): the loop
+    // must come to an end.
     lost = std::numeric_limits<double>::infinity();  // done with
   }
   if (num_merged > 0) join_coplanar(lattice, neighbor, spacing);

@@ -1,6 +1,10 @@
 // The polycube pipeline as a list of passes: check the pair, find the lattice, sample the map; then
 // complete, dualise, map back and optimise on the object's surface, and all of these again over a
 // grid that is finer where the surface was missed.
+//
+// Based on: Pitzalis et al. 2021, section 6.2.
+// Differs: the lattice's planes need not be evenly spaced; folded maps are repaired first; the loop
+// over finished meshes is ours.
 #include "hexwright/polycube/polycube.h"
 
 #include <algorithm>
@@ -71,6 +75,8 @@ void report_lattice(const polycube::Lattice& lattice, PolycubeReport& report) {
                               "of their neighbours, without edges of their own");
 }
 
+// One finished mesh. A round may come out worse than the one before (finer cells also follow folds
+// of the map), so the best one is kept, not the last.
 // Attempts are compared by inverted hexes first, then by distance.
 struct Attempt {
   HexMesh mesh;
@@ -147,6 +153,8 @@ class Mesher {
   }
 
   // Splits the cells that the missed points map into; false when none can be split.
+  // Marks go to the sampled grid, not to the completed one: completion would treat its own splits
+  // as wanted, and the grid would grow with every round.
   bool split_at(const std::vector<Vec3>& missed, Grid& sampled, PolycubeReport& report) const {
     const auto marks = polycube::mark_cells_of_object_points(sampled, missed, in_object_, lattice_,
                                                              options_.max_level);
@@ -216,6 +224,7 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   auto repair = polycube::repair_map(object, lattice, context);
   report.num_nonpositive_left = repair.num_nonpositive;
   PolycubeResult result = Mesher(object, lattice, options, context).run(std::move(report));
+  // The repair may have cut tets; the user knows those of the files.
   for (FoldedHex& f : result.report.folded) f.tet = repair.to_input[f.tet];
   return result;
 }

@@ -1,3 +1,4 @@
+// From points of the object back to cells of the polycube, through the same tets as the way there.
 #include "polycube/refine_misses.h"
 
 #include "hexwright/base/parallel.h"
@@ -20,6 +21,7 @@ std::vector<char> mark_cells_of_object_points(const Grid& grid, std::span<const 
       points.size(),
       [&](std::size_t i) {
         TetPoint at = in_object.locate(points[i]);
+        // Towards the tet's centroid: off the domain's boundary, wherever that looks.
         for (double& w : at.weight) w += kInward * (0.25 - w);
         places[i] = interpolate(lattice.tets, at);
       },

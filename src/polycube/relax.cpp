@@ -1,6 +1,10 @@
 // Based on: the fit's kernel and passes (docs/algorithms/fit.md); Garanzha et al., "Foldover-free
 // maps in 50 lines of code", ACM TOG 40(4), 2021, for the regularised determinants of the
 // untangling.
+//
+// Differs: nothing is carved or snapped here, for the map has already said what every boundary
+// vertex belongs to. Each way of untangling is undone when it leaves more hexes inverted than it
+// found.
 #include "polycube/relax.h"
 
 #include <algorithm>

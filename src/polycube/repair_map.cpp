@@ -1,3 +1,11 @@
+// Untangles a map in two steps: edges that join two vertices of one face through the inside are
+// split, because their tets are flat whatever is done to the vertices; then the vertices around
+// non-positive tets are moved by minimising an energy that is infinite for folded tets.
+//
+// Based on: Garanzha et al., "Foldover-free maps in 50 lines of code", ACM TOG 40(4), 2021, for the
+// energy (unfold.h).
+// Differs: only the surroundings of folds move, ring by ring, so that a good map stays what its
+// author made it.
 #include "polycube/repair_map.h"
 
 #include <algorithm>
@@ -67,6 +75,8 @@ class EdgeSplitter {
       for (VertId v : object.tets[t]) tets_of_[v.index()].push_back(t);
   }
 
+  // Each tet around the edge becomes two: one keeps its number and gets the middle in place of the
+  // edge's first end, the other is appended. Both keep the orientation.
   void split(const Edge& edge) {
     const VertId middle = add_middle(object_, edge);
     add_middle(polycube_, edge);
@@ -157,6 +167,7 @@ RepairReport repair_map(TetMesh& object, Lattice& lattice, const Context& contex
     break;
   }
   if (report.num_nonpositive < before) return report;
+  // Nothing was gained: the splits alone would only make the mesh larger.
   object = old_object;
   lattice.tets = old_polycube;
   return {0, before, old_to_input};

@@ -1,3 +1,10 @@
+// Splits cells level by level where the images of their points on the object are too far apart.
+//
+// Based on: Pitzalis et al. 2021, section 6.2: a cell is refined while two points of the object in
+// it are farther apart than a share of the diagonal.
+// Differs: 27 lattice points of the cell are carried over besides the object's vertices, since a
+// coarse tet mesh may have no vertex in a cell that the map stretches; and the surface's distance
+// is estimated beforehand (surface_misses.h).
 #include "polycube/sample_map.h"
 
 #include <algorithm>
@@ -111,11 +118,14 @@ class Sampler {
   }
 
  private:
+  // The spread is a lower bound of the diameter, so a cell is never split for a stretch it has not.
   bool is_coarse(const CellImage& image) const {
     if (image.spread.width() > options_.max_stretch * diagonal_) return true;
     return options_.max_edge && image.mean_edge > options_.max_edge(image.center);
   }
 
+  // The images of the cell's corners, edge middles, face centres and centre (k = x + 3 y + 9 z),
+  // and of the object's vertices in it.
   CellImage carry(const Box3& cell, std::span<const VertId> verts) const {
     CellImage image;
     for (VertId v : verts) image.spread.add(map_.object.positions[v]);
@@ -151,6 +161,8 @@ class Sampler {
   double diagonal_ = 0;
 };
 
+// Asked before the split, so that a map that stretches without end (a collapsed tet) ends with a
+// message and not with the machine's memory.
 void require_budget(const Grid& grid, std::size_t num_marked, int level,
                     const PolycubeOptions& options) {
   if (grid.num_cells() + 7 * num_marked <= options.max_cells) return;

@@ -17,6 +17,8 @@ struct BoundaryFace {
   int direction;
 };
 
+// A face lies on the domain's boundary when the root cube beyond it is none of the domain's. Faces
+// between leaves of different levels are inside, and no boundary.
 std::vector<BoundaryFace> find_boundary_faces(const Grid& grid) {
   auto roots = grid.roots;
   std::sort(roots.begin(), roots.end());
@@ -99,6 +101,7 @@ std::vector<char> mark_surface_misses(const Grid& grid, const TetMesh& object,
                                       const IdVector<VertId, Vec3>& inward, double limit) {
   const CarriedBoundary carried(grid, object, boundary);
   const SurfaceTree tree(carried.triangles());
+  // Only whether something is within reach matters, so the search stops there.
   const auto is_missed = [&](const Vec3& p) {
     ClosestFilter near;
     near.max_distance = limit;

@@ -1,3 +1,5 @@
+// Facets sorted by their three vertices: those that stand alone belong to one tet. Sorting instead
+// of hashing keeps the order of the result a function of the mesh.
 #include "polycube/tet_boundary.h"
 
 #include <algorithm>

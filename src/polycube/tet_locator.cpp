@@ -1,3 +1,9 @@
+// Point location in a tetrahedral mesh by a binary bounding volume hierarchy with median splits.
+//
+// Based on: Ericson, "Real-Time Collision Detection", 2005, sections 6.2 (object median) and 3.4
+// (barycentric coordinates).
+// Differs: points beside every positive tet are answered too, by the nearest of their facets, since
+// maps in practice have flat tets at the polycube's edges and a vertex must land somewhere.
 #include "polycube/tet_locator.h"
 
 #include <algorithm>
@@ -8,7 +14,9 @@
 namespace hexwright::polycube {
 namespace {
 
+// Below this the boxes cost more than the barycentric tests they spare.
 constexpr std::uint32_t kLeafSize = 4;
+// The facet opposite vertex k, counter-clockwise seen from outside a positive tet.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFacets = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
@@ -18,6 +26,8 @@ Box3 tet_box(const TetMesh& mesh, TetId t) {
   return box;
 }
 
+// Facet 4 * i + k is facet k of the i-th tet, which is how a hit leads back to its tet. Inner
+// facets occur twice; the lower tet wins among equally near ones, as the surface tree promises.
 TriMesh all_facets(const TetMesh& mesh, const std::vector<TetId>& tets) {
   TriMesh facets;
   facets.positions = mesh.positions;
@@ -31,6 +41,8 @@ TriMesh all_facets(const TetMesh& mesh, const std::vector<TetId>& tets) {
 
 double tet_det(const std::array<Vec3, 4>& p) { return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]); }
 
+// Each weight is the volume of the tet with one vertex replaced by p. Taken as differences from p,
+// so that the weights of a point near a vertex keep their digits far from the origin.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& t, const Vec3& p) {
   const double volume = tet_det(t);
   const std::array<double, 4> weight = {
@@ -43,6 +55,8 @@ TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
   Box3 box;
   for (const Vec3& p : mesh.positions) box.extend(p);
   slack_ = 1e-9 * box.diagonal();
+  // Flatter tets cannot be told from inverted ones: products of three coordinates carry that much
+  // rounding.
   const double min_det = 1e-15 * box.diagonal() * box.diagonal() * box.diagonal();
   for (TetId t : mesh.tets.ids()) {
     if (tet_det(tet_corners(mesh, t)) > min_det)
@@ -95,6 +109,7 @@ void TetLocator::build() {
 }
 
 TetPoint TetLocator::locate(const Vec3& p) const {
+  // Barycentric: a point on a facet may be outside of both of its tets by rounding.
   constexpr double kOnFacet = -1e-9;
   TetPoint best;
   double depth = kOnFacet;
@@ -102,6 +117,7 @@ TetPoint TetLocator::locate(const Vec3& p) const {
     return p.x >= b.lo.x - slack_ && p.x <= b.hi.x + slack_ && p.y >= b.lo.y - slack_ &&
            p.y <= b.hi.y + slack_ && p.z >= b.lo.z - slack_ && p.z <= b.hi.z + slack_;
   };
+  // Median splits: the depth is log2(number of tets), and every level leaves one node behind.
   std::array<std::uint32_t, 128> stack;
   std::size_t top = 0;
   stack[top++] = 0;
@@ -129,6 +145,8 @@ TetPoint TetLocator::locate(const Vec3& p) const {
   return best;
 }
 
+// The nearest facet of a positive tet; weights that rounding made negative are cut off, so that the
+// result stays inside the tet.
 TetPoint TetLocator::nearest(const Vec3& p) const {
   const auto hit = facets_->closest(p);
   const TetId tet = order_to_facet_owner_[hit->tri.index() / 4];

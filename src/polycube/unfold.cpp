@@ -16,8 +16,10 @@
 namespace hexwright::polycube {
 namespace {
 
+// How much even volumes count beside even shapes.
 constexpr double kVolumeShare = 0.1;  // weight of the determinant's own term
 constexpr int kMaxRounds = 40, kMaxSteps = 60;
+// Steps that L-BFGS remembers.
 constexpr std::size_t kMemory = 8;
 
 // Column k of a Jacobian is the image of axis k.
@@ -51,6 +53,8 @@ class Unfolder {
     for (TetId t : object.tets.ids()) add_element(object, t);
   }
 
+  // Continuation in epsilon: while the least determinant is below zero, epsilon is a fifth of it,
+  // so that folded tets feel a slope; each round starts where the last one ended.
   std::size_t run(const Context& context) {
     for (int round = 0; round < kMaxRounds && least_det() <= kLeastDet; ++round) {
       context.check_cancelled();
@@ -66,6 +70,8 @@ class Unfolder {
  private:
   static constexpr double kLeastDet = 1e-4;  // of the mean; flatter tets map cells to slivers
 
+  // Only tets with a free vertex count: the others are constants of the energy. The gradient of a
+  // barycentric coordinate is the area vector of the opposite facet over the volume.
   void add_element(const TetMesh& object, TetId t) {
     Element e{object.tets[t], {}, 1};
     if (std::none_of(e.verts.begin(), e.verts.end(), [&](VertId v) { return free_axes_[v] != 0; }))
@@ -104,12 +110,15 @@ class Unfolder {
     for (const Element& e : elements_) {
       const Matrix j = jacobian(e, x);
       const double d = det_of(j), root = std::sqrt(epsilon_sq_ + d * d);
+      // chi = (d + sqrt(eps^2 + d^2)) / 2. For d < 0 that is a difference of nearly equal
+      // numbers, so it is multiplied out.
       const double chi = d > 0 ? (d + root) / 2 : epsilon_sq_ / (2 * (root - d));
       const double chi_slope = (1 + d / root) / 2;
       const double size = norm_sq(j[0]) + norm_sq(j[1]) + norm_sq(j[2]);
       const double shape = size / std::cbrt(chi * chi), volume = (1 + d * d) / chi;
       sum += e.weight * (shape + kVolumeShare * volume);
       if (!gradient) continue;
+      // Derivatives by the determinant; the derivative of that by J is its cofactor matrix.
       const double by_det = -2.0 / 3 * shape / chi * chi_slope +
                             kVolumeShare * (2 * d / chi - volume / chi * chi_slope);
       const Matrix cofactor = {cross(j[1], j[2]), cross(j[2], j[0]), cross(j[0], j[1])};
@@ -122,6 +131,7 @@ class Unfolder {
     return sum;
   }
 
+  // Axes that are not free have no slope, so no direction of descent ever leaves a face.
   Positions gradient() const {
     Positions g(x_.size());
     energy(x_, &g);
@@ -132,6 +142,7 @@ class Unfolder {
   }
 
   // Two-loop recursion over the last steps and gradient differences.
+  // Nocedal, Wright, "Numerical Optimization", 2nd edition, algorithm 7.4.
   Positions direction(const Positions& g) const {
     Positions d = g;
     std::array<double, kMemory> alpha{};

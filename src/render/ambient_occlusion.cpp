@@ -21,6 +21,7 @@ struct Offset {
   double x = 0, y = 0;  // in the unit disc
 };
 
+// Evenly over the disc: equal areas per sample, turned by the golden angle.
 std::vector<Offset> make_spiral() {
   constexpr double kGoldenAngle = std::numbers::pi * (3 - 2.2360679774997896);
   std::vector<Offset> offsets;
@@ -39,6 +40,8 @@ Vec3 view_position(const Raster& raster, int x, int y, double focal_length) {
           -(y - 0.5 * raster.height) * distance / focal_length, -distance};
 }
 
+// Sum over the samples of how much of the hemisphere over the pixel they fill: v . n / (v . v), as
+// in the paper's estimator. Samples beyond the image or on the background fill nothing.
 double occlusion_at(const Raster& raster, int x, int y, double focal_length,
                     const std::vector<Offset>& spiral) {
   const Vec3 p = view_position(raster, x, y, focal_length);

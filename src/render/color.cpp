@@ -8,6 +8,8 @@
 namespace hexwright {
 namespace {
 
+// Sampled from the published scheme, its blues made lighter so that dark edges stay visible on
+// the best hexes, which are most of a picture.
 constexpr std::array<std::array<int, 3>, 10> kScale = {{
     {165, 0, 38},
     {215, 48, 39},

@@ -89,6 +89,7 @@ constexpr Glyph kGlyphs[] = {
     {')', {0x08, 0x04, 0x02, 0x02, 0x02, 0x04, 0x08}},
 };
 
+// Seven rows of five bits, the highest bit at the left. A scan is fast enough for a legend.
 const Glyph* find_glyph(char character) {
   const auto* found = std::find_if(std::begin(kGlyphs), std::end(kGlyphs),
                                    [&](const Glyph& g) { return g.character == character; });

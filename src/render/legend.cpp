@@ -1,3 +1,5 @@
+// The scale is drawn row by row, so that each row's colour is that of the value it stands for; the
+// histogram grows from it to the left, longest bar = most frequent value.
 #include "render/legend.h"
 
 #include <algorithm>
@@ -14,8 +16,10 @@ namespace {
 constexpr int kNumBins = 50;
 constexpr int kTitleLetters = 17;  // room for the title
 
+// Letters grow with the picture, in whole pixels: they stay crisp.
 int text_scale(const Image& image) { return std::max(1, image.width / 600); }
 
+// Clipped: small images have less room than the legend would like.
 void put(Image& image, int x, int y, const Color& color) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
   const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
@@ -46,6 +50,7 @@ struct Layout {
   }
 };
 
+// Values beyond the scale belong to its ends (inverted hexes to the lowest bin); NaN to none.
 std::vector<std::size_t> count_bins(const std::vector<double>& values) {
   std::vector<std::size_t> bins(kNumBins, 0);
   for (double value : values) {

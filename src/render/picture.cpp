@@ -46,6 +46,7 @@ std::vector<Vec3> visible_positions(const HexMesh& mesh, const std::vector<Visib
   return points;
 }
 
+// The legend takes its strip at the right; the mesh is framed in what is left.
 Viewport place_viewport(const Image& image, bool with_legend) {
   const double margin = 0.04 * std::min(image.width, image.height);
   const double right = with_legend ? legend_width(image) + margin : margin;
@@ -54,6 +55,7 @@ Viewport place_viewport(const Image& image, bool with_legend) {
 
 // Light for a surface with this normal in the camera's frame: a key light from the upper left, a
 // weaker one from the right.
+// Light is fixed to the eye and not to the scene, so that no view of a mesh is dark.
 float light(const Vec3& normal) {
   const double key = std::max(0.0, dot(normal, normalized(Vec3{-0.45, 0.65, 0.65})));
   const double fill = std::max(0.0, dot(normal, normalized(Vec3{0.7, 0.1, 0.7})));
@@ -73,6 +75,8 @@ float line_share(const std::array<ScreenPoint, 4>& c) {
   return static_cast<float>(0.85 * std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
 }
 
+// A face is a back face when it runs clockwise on the screen: seen from inside its hex, through a
+// cut or because the hex is inverted. Its normal is turned to the eye, for light has no inside.
 ShadedQuad shade(const HexMesh& mesh, const VisibleFace& visible, const Camera& camera,
                  const Color& color) {
   const auto verts = face_verts(mesh, visible.face);

@@ -1,6 +1,11 @@
 // Bands of rows are drawn independently, each by one task that takes the quads in their order, so
 // that threads never change the image. Edges are drawn as part of their quad, where a sample is
 // near its border: what hides the quad hides its edges.
+//
+// Based on: Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988 (barycentric
+// half-plane tests per sample).
+// Differs: a sample on the side of two triangles counts for both; the z-buffer keeps one, so shared
+// sides neither leave gaps nor need a fill rule.
 #include "render/rasterizer.h"
 
 #include <algorithm>
@@ -11,7 +16,11 @@
 namespace hexwright {
 namespace {
 
-constexpr int kBandHeight = 16;            // pixels
+// Bands of this height are a task each: enough for many threads, and a band's samples stay in
+// cache.
+constexpr int kBandHeight = 16;  // pixels
+// Both sides of a face between a hex kept and one cut away lie at the same depth: the front one
+// must win whatever the order.
 constexpr float kBackFacePenalty = 1e-4F;  // of the nearness
 constexpr Color kLine = {0.10F, 0.11F, 0.14F};
 
@@ -46,6 +55,7 @@ class Band {
         rows_(num_rows_ * options.supersample),
         samples_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
+  // A bent quad is drawn as the two triangles about its first diagonal.
   void draw(const ShadedQuad& quad, std::int32_t index) {
     draw_triangle(quad, {0, 1, 2}, index);
     draw_triangle(quad, {0, 2, 3}, index);
@@ -91,6 +101,7 @@ class Band {
     }
   }
 
+  // Equal nearness does not replace: the lower quad wins, in any number of bands.
   void put(const ShadedQuad& quad, std::int32_t index, int row, int column, float nearness) {
     if (quad.is_back) nearness *= 1 - kBackFacePenalty;
     Sample& sample = samples_[index_of(row, column)];
@@ -104,6 +115,8 @@ class Band {
     }
   }
 
+  // Mean colour of the pixel's samples; depth and normal of the middle one, since means of those
+  // across an edge belong to no surface.
   void resolve_pixel(const std::vector<ShadedQuad>& quads, int x, int row, Raster& raster) const {
     const int n = options_.supersample;
     Color sum;

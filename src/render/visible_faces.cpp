@@ -1,3 +1,5 @@
+// A cut removes whole hexes by their centres, which shows their real shapes; slicing through them
+// would show polygons that are no faces of the mesh.
 #include "render/visible_faces.h"
 
 #include "hexwright/base/parallel.h"
@@ -23,6 +25,7 @@ IdVector<HexId, char> find_kept(const HexMesh& mesh,
       low = std::min(low, dot(mesh.positions[v], normal));
       high = std::max(high, dot(mesh.positions[v], normal));
     }
+  // The plane's place is measured between the extremes of the used vertices along its normal.
   // The layer of a symmetric mesh that the plane halves has its centres on it but for noise: it
   // stays as a whole.
   constexpr double kNoise = 0.003;
