@@ -161,6 +161,26 @@ TEST(WindingNumber, ExpansionErrorsShrinkWithTheAccuracyAsked) {
   EXPECT_LT(last, 1e-12);  // no child is that far: all exact
 }
 
+// Dipole and first-order term leave an error of fourth order in radius over distance: twice as far
+// away it is a sixteenth. With a wrong first-order term it would be an eighth.
+TEST(WindingNumber, FarFieldConvergesWithTheFourthOrder) {
+  const TriMesh soup = test::random_soup(200, 82);
+  const SurfaceTree tree(soup);
+  std::mt19937_64 random(83);
+  double near = 0, far = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 direction = normalized(test::random_point(random));
+    const auto error = [&](double distance) {
+      const Vec3 p = direction * distance;
+      return std::abs(tree.winding_number(p, 1.001) - test::brute_winding(soup, p));
+    };
+    near += error(20);
+    far += error(40);
+  }
+  EXPECT_GT(near / far, 13);
+  EXPECT_LT(near / far, 20);
+}
+
 TEST(WindingNumber, AddsOverPartsNegatesUnderReversalAndIgnoresSimilarities) {
   const TriMesh a = test::random_soup(150, 78), b = test::random_soup(100, 79);
   TriMesh both = a, reversed = a;

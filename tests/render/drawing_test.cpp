@@ -52,6 +52,32 @@ TEST(Camera, StraightLinesStayStraightAndNearnessIsLinearAlongThem) {
   }
 }
 
+// Nearness is one over the distance along the view, in diagonals; the eye stands 3.5 of them from
+// the box's centre, which is straight ahead.
+TEST(Camera, NearnessIsTheInverseDistanceAlongTheView) {
+  std::mt19937_64 random(27);
+  for (int round = 0; round < 20; ++round) {
+    const auto points = random_points(10, random);
+    Box3 box;
+    for (const Vec3& p : points) box.extend(p);
+    const Vec3 forward = normalized(random_vec(random));
+    const Vec3 side = normalized(cross(forward, random_vec(random)));
+    const Camera camera(points, forward, {0, 0, 100, 100});
+    const ScreenPoint middle = camera.project(box.center());
+    EXPECT_NEAR(middle.nearness, 1 / 3.5, 1e-12);
+    for (double depth : {-0.5, 0.25, 2.0}) {
+      const Vec3 p = box.center() + forward * (depth * box.diagonal());
+      EXPECT_NEAR(camera.project(p).nearness, 1 / (3.5 + depth), 1e-12);
+      EXPECT_NEAR(camera.project(p).x, middle.x, 1e-9);  // on the optical axis
+      EXPECT_NEAR(camera.project(p).y, middle.y, 1e-9);
+      const ScreenPoint beside = camera.project(p + side * box.diagonal());
+      EXPECT_NEAR(beside.nearness, 1 / (3.5 + depth), 1e-12);
+      EXPECT_NEAR(std::hypot(beside.x - middle.x, beside.y - middle.y),
+                  camera.focal_length() / (3.5 + depth), 1e-9);
+    }
+  }
+}
+
 // The picture does not change with the model's units or place.
 TEST(Camera, FollowsScaleAndPosition) {
   std::mt19937_64 random(22);

@@ -151,6 +151,14 @@ TEST(Rasterizer, AFrontFaceHidesABackFaceOfEqualDepthInEitherOrder) {
   }
 }
 
+// What makes the image a function of the quads' order alone, whatever the bands and threads.
+TEST(Rasterizer, OfEquallyNearQuadsTheFirstIsSeen) {
+  const std::array<ScreenPoint, 4> square = {{{0, 0, 1}, {9, 0, 1}, {9, 40, 1}, {0, 40, 1}}};
+  const Raster raster =
+      rasterize({flat_quad(square, {0, 1, 0}), flat_quad(square, kRed)}, {9, 40, 1, 1});
+  for (const Color& c : raster.color) EXPECT_EQ(c.g, 1);
+}
+
 // Lines lie within half their width of the quad's sides, and nowhere else.
 TEST(Rasterizer, EdgesAreAsWideAsAsked) {
   for (double width : {1.0, 3.0, 6.0}) {
