@@ -157,24 +157,12 @@ TEST_F(GateTest, AnEmptyMeshHasTheJudgesReasonAlone) {
   EXPECT_TRUE(warnings_.empty());
 }
 
-// Curves that are mapped but not followed closely call for another round; curves that are not
-// mapped do not, for finer cells would not help them.
-TEST_F(GateTest, OnlyMappedCurvesCallForFinerCells) {
-  options_.judge.edge_tolerance = options_.sizing.tolerance;
-  MeshResult loose = good_;
-  loose.verdict.features->total_length = 10;
-  loose.verdict.features->length_share = 0.9;
-  loose.fit.curve_length = 10;
-  for (const auto& [mapped, is_fine] : {std::pair{10.0, false}, {9.1, false}, {8.9, true}}) {
-    loose.fit.curve_length_mapped = mapped;
-    EXPECT_EQ(is_content(input(), round_of(loose)), is_fine) << mapped;
-  }
-  loose.fit.curve_length_mapped = 10;
-  options_.min_feature_share = 0.85;
-  EXPECT_TRUE(is_content(input(), round_of(loose)));
-  options_.min_feature_share = 0.98;
-  options_.sizing.tolerance *= 10;  // who asks for a coarse mesh does not pay for close curves
-  EXPECT_TRUE(is_content(input(), round_of(loose)));
+// Curves that finer cells would follow better keep the loop going, but fail nothing.
+TEST_F(GateTest, RefinableFeaturesKeepTheLoopGoing) {
+  Round loose = round_of(good_);
+  loose.refinable_features = {{0.5, 0.5, 0}};
+  EXPECT_FALSE(is_content(input(), loose));
+  EXPECT_TRUE(is_within_gate(input(), loose));
 }
 
 // is_better must order rounds: of two different ones never both, and never in a circle.
@@ -226,13 +214,8 @@ TEST_F(GateTest, MissesMarkTheLeavesThatHoldThem) {
   ASSERT_EQ(boxes.size(), 2u);
   for (const Box3& box : boxes) EXPECT_NE(box.contains(hot), box.contains(lost));
 
-  options_.judge.edge_tolerance = options_.sizing.tolerance;
-  round.verdict.features->total_length = round.fit.report.curve_length_mapped = 1;
-  round.verdict.features->missed = {{0.4, 0.4, 0.4}};
-  round.verdict.features->length_share = 0.5;
+  round.refinable_features = {{0.4, 0.4, 0.4}};
   EXPECT_EQ(marked_boxes().size(), 3u);
-  round.verdict.features->length_share = 1;  // enough is followed: no need
-  EXPECT_EQ(marked_boxes().size(), 2u);
 
   options_.sizing.max_level = 2;
   options_.loop_extra_levels = 0;  // the leaves are as deep as they may be
