@@ -69,7 +69,7 @@ void check_mesh(const CheckCommand& cmd, Program& program) {
   }
   if (cmd.as_json || program.console.is_quiet)  // otherwise the text has said so
     for (const std::string& f : verdict.failures) program.console.fail(cmd.input + ": " + f);
-  if (verdict.topology.num_hanging > 0 && is_grid(cmd.input))
+  if (!verdict.topology.hanging_verts.empty() && is_grid(cmd.input))
     program.console.warn(cmd.input + ": it is a grid with hanging nodes: check it with --grid");
   program.exit_code = verdict.is_valid() ? Valid : FailsGate;
 }

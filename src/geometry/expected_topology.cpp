@@ -40,29 +40,47 @@ std::vector<Component> collect_components(const TriMesh& surface, std::size_t co
 
 enum class Exposure { Bounding, Hidden, Mixed };
 
-/// Triangles at even steps of the component's area: slivers, whose neighbourhood is thinner than
-/// any step off the surface (along the edge of a blade), are sampled for their area's worth only.
-std::vector<TriId> sample_by_area(const TriMesh& surface, const std::vector<TriId>& tris) {
-  constexpr int kNumSamples = 24;
+constexpr std::size_t kNumSamples = 24;  // of each kind
+
+double height_over_longest_edge(const std::array<Vec3, 3>& p) {
+  const double longest =
+      std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  return longest > 0 ? norm(cross(p[1] - p[0], p[2] - p[0])) / longest : 0;
+}
+
+/// Triangles at even steps of the component's list: small ones count as much as large ones, and
+/// where parts of a component cross each other the triangles are mostly small. Slivers are left
+/// out: along the edge of a blade the wall itself is thinner than any step off the surface.
+void sample_by_number(const TriMesh& surface, const std::vector<TriId>& tris, double least_height,
+                      std::vector<TriId>& samples) {
+  const std::size_t stride = std::max<std::size_t>(1, tris.size() / kNumSamples);
+  for (std::size_t i = 0; i < tris.size(); i += stride)
+    if (height_over_longest_edge(surface.corners(tris[i])) >= least_height)
+      samples.push_back(tris[i]);
+}
+
+/// Triangles at even steps of the component's area; slivers only for their area's worth.
+void sample_by_area(const TriMesh& surface, const std::vector<TriId>& tris,
+                    std::vector<TriId>& samples) {
   std::vector<double> area_before = {0};  // the sum up to each triangle
   for (TriId t : tris) {
     const auto p = surface.corners(t);
     area_before.push_back(area_before.back() + norm(cross(p[1] - p[0], p[2] - p[0])));
   }
-  std::vector<TriId> samples;
-  for (int i = 0; i < kNumSamples; ++i) {
-    const double share = (i + 0.5) / kNumSamples * area_before.back();
+  for (std::size_t i = 0; i < kNumSamples; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / kNumSamples * area_before.back();
     const auto after = std::upper_bound(area_before.begin() + 1, area_before.end() - 1, share);
     samples.push_back(tris[static_cast<std::size_t>(after - area_before.begin()) - 1]);
   }
-  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-  return samples;
 }
 
 /// Whether the component separates inside from outside, judged at a few of its triangles.
 Exposure find_exposure(const SurfaceTree& tree, const Component& component) {
+  constexpr double kSliver = 10;  // a height of so many steps leaves room for the samples beside it
   const double step = 1e-5 * tree.box().diagonal();
-  const std::vector<TriId> samples = sample_by_area(tree.surface(), component.tris);
+  std::vector<TriId> samples;
+  sample_by_number(tree.surface(), component.tris, kSliver * step, samples);
+  sample_by_area(tree.surface(), component.tris, samples);
   std::size_t num_bounding = 0;
   for (TriId t : samples) {
     const auto p = tree.surface().corners(t);

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "hexwright/base/error.h"
-#include "hexwright/geometry/expected_topology.h"
 #include "hexwright/geometry/exposure.h"
 
 #include "geometry/edges_along.h"
@@ -241,10 +240,7 @@ FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& opti
 }
 
 FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options) {
-  // Two winding numbers per crease edge are slow where needles crowd, and say nothing new about a
-  // surface that bounds the solid all over.
-  const bool is_all_boundary = find_expected_topology(surface).is_all_boundary();
-  return extract(surface.surface(), options, is_all_boundary ? nullptr : &surface);
+  return extract(surface.surface(), options, &surface);
 }
 
 IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,

@@ -183,8 +183,13 @@ bool is_better(const RoundInput& input, const Round& a, const Round& b) {
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round) {
   if (!is_content_but_for_distance(input, round) || !misses_mean(input, round)) return {};
   const double goal_share = mean_goal(input.options) / mean_distance(round);
-  if (max_distance(round) * goal_share > input.options.sizing.tolerance) return {};
-  return std::max(kLeastScale, kScaleMargin * std::sqrt(goal_share));
+  const double scale = kScaleMargin * std::sqrt(goal_share);
+  // A mean that is far off beside a maximum beyond the tolerance comes from places that the grid is
+  // too coarse for, not from cells that are a little too large everywhere.
+  const double tolerance = input.options.sizing.tolerance;
+  const bool mends_maximum = scale >= kLeastScale && max_distance(round) * goal_share <= tolerance;
+  if (max_distance(round) > tolerance && !mends_maximum) return {};
+  return std::max(kLeastScale, scale);
 }
 
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
@@ -192,6 +197,9 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   if (round.verdict.distance) points = round.verdict.distance->hot;
   const auto& lost = round.fit.report.carve.lost;
   points.insert(points.end(), lost.begin(), lost.end());
+  // Two walls of a gap fitted onto the same side of it: finer cells tell them apart.
+  for (VertId v : round.verdict.topology.hanging_verts)
+    points.push_back(round.fit.mesh.positions[v]);
   const auto& features = round.refinable_features;
   points.insert(points.end(), features.begin(), features.end());
   const int deepest = deepest_level(input.options);

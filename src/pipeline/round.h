@@ -61,12 +61,13 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
 /// one nearer in the mean, and when both are near enough in that, the smaller one.
 bool is_better(const RoundInput& input, const Round& a, const Round& b);
 
-/// How much smaller all cells must become for the mean distance to reach its goal, when nothing else
-/// is missed that this would not mend.
+/// How much smaller all cells must become for the mean distance to reach its goal, when nothing
+/// else is missed that this would not mend.
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round);
 
-/// Leaves of the completed grid that hold points the fit missed, of the surface or of its features;
-/// when there are none but the topology is not the surface's, those of thin parts and gaps.
+/// Leaves of the completed grid that hold points the fit missed, of the surface or of its features,
+/// and where the mesh's boundary touches itself; when there are none but the topology is not the
+/// surface's, those of thin parts and gaps.
 std::vector<char> mark_misses(const RoundInput& input, const Round& round);
 
 /// Fills `failures` and `warnings` of the result by the gate.

@@ -155,7 +155,7 @@ void check_boundary(const BoundarySurface& boundary, TopologyReport& report) {
 
 void check_hanging(const HexMesh& mesh, const BoundarySurface& boundary, TopologyReport& report) {
   const auto hanging = find_hanging_verts(mesh, boundary);
-  report.num_hanging = hanging.size();
+  for (const HangingVert& h : hanging) report.hanging_verts.push_back(h.vert);
   if (!hanging.empty())
     add_problem(report, hanging.size(), "vertex(es) lie inside an edge or face of another hex",
                 name(hanging.front().vert) + " in " + name(mesh, hanging.front().face));

@@ -28,7 +28,7 @@ Json to_json(const TopologyReport& t) {
           {"nonmanifold_edges", t.num_nonmanifold_edges},
           {"nonmanifold_vertices", t.num_nonmanifold_verts},
           {"singular_vertices", t.num_singular_verts},
-          {"hanging_vertices", t.num_hanging},
+          {"hanging_vertices", t.hanging_verts.size()},
           {"problems", t.problems}};
 }
 

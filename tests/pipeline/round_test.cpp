@@ -1,9 +1,9 @@
 // Which of two rounds of the loop is the better result.
 #include "pipeline/round.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "helpers.h"
 
@@ -93,6 +93,10 @@ TEST_F(RoundTest, ScalingWaitsForWhatItDoesNotMend) {
   EXPECT_TRUE(scale_for_mean(input, slightly));  // 1.2 / 1.5 of the tolerance afterwards
   EXPECT_FALSE(scale_for_mean(input, far));
   EXPECT_FALSE(scale_for_mean(input, poor));
+  // Far off in both: the grid is too coarse for some places, which are refined first.
+  Round coarse = round(8, 0.3);
+  coarse.verdict.distance->mean_to_mesh = 13 * mean_goal(options_);
+  EXPECT_FALSE(scale_for_mean(input, coarse));
 }
 
 TEST_F(RoundTest, TopologyGoesBeforeDistance) {
@@ -125,6 +129,15 @@ TEST_F(RoundTest, ThinPlacesAreRefinedOnlyForTopologyAndWhenNothingElseIs) {
   torus.fit.report.carve.lost.clear();
   torus.verdict.topology.boundary_euler_characteristic = 2;
   EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 0}));
+}
+
+TEST_F(RoundTest, RefinesWhereTheBoundaryTouchesItself) {
+  const RoundInput input{tree_, options_, expected_, context_};
+  Round r = round(0.5, 0.5);
+  r.grid = make_grid({{0, 0, 0}, 2}, {{0, 0, 0}, {1, 0, 0}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
+  r.fit.mesh.positions = IdVector<VertId, Vec3>({{1, 1, 1}, {3, 1, 1}});
+  r.verdict.topology.hanging_verts = {VertId(1)};
+  EXPECT_EQ(mark_misses(input, r), (std::vector<char>{0, 1}));
 }
 
 }  // namespace

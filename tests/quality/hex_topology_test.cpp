@@ -152,7 +152,7 @@ TEST(HexTopology, NamesHangingVertices) {
   const HexMesh large = transformed(test::box_hex_mesh(1, 1, 1), 0.1, {3, 3, 3});
   const HexMesh small = transformed(test::box_hex_mesh(2, 2, 2), 0.05, {3.1, 3, 3});
   const TopologyReport report = check_topology(join(large, small));
-  EXPECT_EQ(report.num_hanging, 5u);  // four edges' middles and the face's
+  EXPECT_EQ(report.hanging_verts.size(), 5u);  // four edges' middles and the face's
   EXPECT_TRUE(mentions(report, "of hex 0"));
 }
 
@@ -160,14 +160,14 @@ TEST(HexTopology, AHangingVertexInsideAFaceAloneIsFound) {
   // On one face a smaller hex, whose vertices all lie strictly inside the face.
   const HexMesh large = test::box_hex_mesh(1, 1, 1);
   const HexMesh small = transformed(test::box_hex_mesh(1, 1, 1), 0.3, {1, 0.35, 0.2});
-  EXPECT_EQ(check_topology(join(large, small)).num_hanging, 4u);
+  EXPECT_EQ(check_topology(join(large, small)).hanging_verts.size(), 4u);
   // A gap of a hundredth is no contact.
-  EXPECT_EQ(check_topology(join(large, transformed(small, 1, {0.01, 0, 0}))).num_hanging, 0u);
+  EXPECT_EQ(check_topology(join(large, transformed(small, 1, {0.01, 0, 0}))).hanging_verts.size(), 0u);
 }
 
 TEST(HexTopology, ACrackOfEqualQuadsIsNotHanging) {
   const HexMesh box = test::box_hex_mesh(2, 2, 2);
-  EXPECT_EQ(check_topology(join(box, transformed(box, 1, {2, 0, 0}))).num_hanging, 0u);
+  EXPECT_EQ(check_topology(join(box, transformed(box, 1, {2, 0, 0}))).hanging_verts.size(), 0u);
 }
 
 }  // namespace

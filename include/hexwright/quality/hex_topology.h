@@ -18,8 +18,9 @@ struct TopologyReport {
   std::size_t num_nonmanifold_verts = 0;  ///< boundary vertices with more than one fan of quads
   std::size_t num_singular_verts = 0;  ///< vertices whose link is not a sphere (inside) or a disc
                                        ///< (boundary); not counted when faces or hexes are broken
-  std::size_t num_hanging =
-      0;  ///< vertices lying inside another hex's edge or face (non-conforming grids)
+  /// Vertices lying inside another hex's edge or face: in non-conforming grids, and where the
+  /// boundary touches itself. Sorted.
+  std::vector<VertId> hanging_verts;
   std::size_t num_components = 0;  ///< of hexes, connected across faces
   std::size_t num_boundary_components = 0;
   long boundary_euler_characteristic = 0;
