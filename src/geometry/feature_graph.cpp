@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
 #include "hexwright/geometry/exposure.h"
 
 #include "geometry/edges_along.h"
@@ -67,10 +68,18 @@ std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
   for (TriId t : surface.tris.ids()) normals[t.index()] = unit_normal(surface.corners(t));
   const SurfaceEdges edges = compute_surface_edges(surface);
   const double min_cosine = std::cos(angle);
+  std::vector<char> is_taken(edges.size());
+  constexpr std::size_t kGrain = 16;  // where needles crowd, one test takes a millisecond
+  parallel_for(
+      edges.size(),
+      [&](std::size_t e) {
+        is_taken[e] = is_crease(edges.sides_of(e), normals, min_cosine) &&
+                      (!tree || is_exposed(*tree, edges, e));
+      },
+      kGrain);
   std::vector<std::uint64_t> keys;
   for (std::size_t e = 0; e < edges.size(); ++e)
-    if (is_crease(edges.sides_of(e), normals, min_cosine) && (!tree || is_exposed(*tree, edges, e)))
-      keys.push_back(edges.keys[e]);
+    if (is_taken[e]) keys.push_back(edges.keys[e]);
   return keys;
 }
 
