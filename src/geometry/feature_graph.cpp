@@ -83,6 +83,14 @@ std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
   return keys;
 }
 
+/// Sorted, of edges in any order.
+std::vector<std::uint64_t> keys_of(std::span<const std::array<VertId, 2>> edges) {
+  std::vector<std::uint64_t> keys;
+  for (const auto& [a, b] : edges) keys.push_back(edge_key(a, b));
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
 /// The graph of crease edges, from which pieces are removed.
 class CreaseGraph {
  public:
@@ -93,7 +101,8 @@ class CreaseGraph {
         min_length_(options.min_length),
         user_keys_(user_keys(surface, user_edges)),
         neighbors_(surface.num_verts()) {
-    const auto creases = crease_keys(surface, options.crease_angle, tree);
+    const auto creases = options.creases ? keys_of(*options.creases)
+                                         : crease_keys(surface, options.crease_angle, tree);
     std::set_union(creases.begin(), creases.end(), user_keys_.begin(), user_keys_.end(),
                    std::back_inserter(keys_));
     for (std::uint64_t key : keys_) {
@@ -242,6 +251,13 @@ double FeatureGraph::total_length() const {
   double sum = 0;
   for (const FeatureCurve& c : curves) sum += c.length();
   return sum;
+}
+
+std::vector<std::array<VertId, 2>> find_creases(const SurfaceTree& surface, double crease_angle) {
+  std::vector<std::array<VertId, 2>> creases;
+  for (std::uint64_t key : crease_keys(surface.surface(), crease_angle, &surface))
+    creases.push_back({VertId(key >> 32), VertId(key & 0xffffffffu)});
+  return creases;
 }
 
 FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {

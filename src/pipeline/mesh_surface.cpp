@@ -275,7 +275,11 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
                                      [&] { return SurfaceTree(std::move(prepared.mesh)); });
   const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
-    return extract_features(tree, options.judge.features);
+    // Once for all rounds: every fit and every judgement extracts the features again.
+    FeatureOptions& judged = options.judge.features;
+    judged.creases = find_creases(tree, judged.crease_angle);
+    options.fit.features.creases = judged.creases;
+    return extract_features(tree, judged);
   });
   warn_unmatched(features, context);
   result.stages.back().counts["curves"] = static_cast<double>(features.curves.size());

@@ -159,6 +159,20 @@ TEST(Features, ASegmentMayRunOverSeveralEdgesInLine) {
   EXPECT_NEAR(features.total_length(), border + std::sqrt(2.0), 1e-12);
 }
 
+TEST(Features, AreTheSameWithCreasesFoundBefore) {
+  const SurfaceTree tree(prism(40, 2));
+  FeatureOptions options;
+  const FeatureGraph expected = extract_features(tree, options);
+  options.creases = find_creases(tree, options.crease_angle);
+  std::reverse(options.creases->begin(), options.creases->end());
+  const FeatureGraph features = extract_features(tree, options);
+  ASSERT_EQ(features.curves.size(), expected.curves.size());
+  for (CurveId c : features.curves.ids())
+    EXPECT_EQ(features.curves[c].verts, expected.curves[c].verts);
+  options.creases->clear();
+  EXPECT_TRUE(extract_features(tree, options).empty());
+}
+
 TEST(Features, AnEdgeOutOfRangeIsRefused) {
   FeatureOptions options;
   options.extra_edges = {{VertId(0), VertId(99)}};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct FeatureOptions {
   /// ... or as straight segments in that surface's coordinates, from vertex to vertex along one
   /// edge or several. These stay right when a surface is cleaned and renumbered.
   std::vector<std::array<Vec3, 2>> extra_segments;
+  /// What find_creases() gave for the same surface and angle, for a surface that is asked often;
+  /// found anew when absent.
+  std::optional<std::vector<std::array<VertId, 2>>> creases;
 };
 
 /// A chain of surface vertices between two corners, or a closed loop.
@@ -42,6 +46,10 @@ struct FeatureGraph {
   bool empty() const { return curves.empty() && corners.empty(); }
   double total_length() const;
 };
+
+/// The edges of a surface that are creases by angle, boundary or non-manifold edges, without those
+/// that lie off the solid's boundary. Linear but for winding numbers, which are slow among needles.
+std::vector<std::array<VertId, 2>> find_creases(const SurfaceTree& surface, double crease_angle);
 
 /// Creases by dihedral angle, boundary and non-manifold edges, and the user's; chained, pruned,
 /// with corners.
