@@ -10,7 +10,7 @@ namespace hexwright {
 namespace {
 
 // A lambda, not a function: sorting calls it in line.
-constexpr auto key_less = [](const Brick& a, const Brick& b) { return a.key < b.key; };
+constexpr auto kKeyLess = [](const Brick& a, const Brick& b) { return a.key < b.key; };
 
 /// In place, for sorted bricks; empty ones go.
 void unite_equal_keys(std::vector<Brick>& bricks) {
@@ -28,8 +28,8 @@ void unite_equal_keys(std::vector<Brick>& bricks) {
 }  // namespace
 
 void normalize_bricks(std::vector<Brick>& bricks) {
-  if (!std::is_sorted(bricks.begin(), bricks.end(), key_less))
-    parallel_stable_sort(bricks.begin(), bricks.end(), key_less);
+  if (!std::is_sorted(bricks.begin(), bricks.end(), kKeyLess))
+    parallel_stable_sort(bricks.begin(), bricks.end(), kKeyLess);
   unite_equal_keys(bricks);
 }
 
