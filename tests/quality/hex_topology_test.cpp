@@ -162,7 +162,8 @@ TEST(HexTopology, AHangingVertexInsideAFaceAloneIsFound) {
   const HexMesh small = transformed(test::box_hex_mesh(1, 1, 1), 0.3, {1, 0.35, 0.2});
   EXPECT_EQ(check_topology(join(large, small)).hanging_verts.size(), 4u);
   // A gap of a hundredth is no contact.
-  EXPECT_EQ(check_topology(join(large, transformed(small, 1, {0.01, 0, 0}))).hanging_verts.size(), 0u);
+  EXPECT_EQ(check_topology(join(large, transformed(small, 1, {0.01, 0, 0}))).hanging_verts.size(),
+            0u);
 }
 
 TEST(HexTopology, ACrackOfEqualQuadsIsNotHanging) {
