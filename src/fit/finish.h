@@ -11,9 +11,13 @@ namespace hexwright::fitting {
 /// Adds `rings` rings of hex-neighbours to a set of vertices.
 void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings);
 
+/// A new attachment weight moves the boundary of a region (one entry per vertex); its inside
+/// follows where the boundary moved.
+void mark_boundary_dirty(FitState& state, const std::vector<char>& region);
+
 struct RefitOptions {
-  int max_rounds = 4;
-  double stuck = 0.02;  ///< residual, in h, of a vertex that did not reach its target
+  int max_rounds = 2;
+  double stuck = 0.04;  ///< residual, in h, of a vertex that did not reach its target
   int rings = 3;
   ShapeEnergy shape{0.9, 1, 0};
 };
@@ -53,6 +57,7 @@ struct AverageOptions {
   int sweeps = 3;
   int power = 8;  ///< the larger, the more a hex is judged by its worst corner alone
   double tolerance = 0.01;
+  double relaxation = 1.6;  ///< see SweepOptions; what three sweeps reach took nine at 1
 };
 /// Raises the average scaled Jacobian of dirty vertices' surroundings within the motion their
 /// `move` allows; no move takes the least around a vertex below both `least` and what it was.

@@ -30,7 +30,16 @@ namespace {
 
 using namespace fitting;
 
-constexpr int kSmoothRounds = 3;
+// How a mesh goes from the carve's staircase to the surface: rising attachment weights and the
+// sweeps at each. A scaffold that curves are mapped on need not arrive as closely as one that
+// stays, and the padded mesh after it has fit2 and fit3 to come; more sweeps there change the
+// distances little and cost quality, because they press the staircase flat before its layers may
+// share the strain.
+struct Approach {
+  int num_weights, sweeps_per_weight;
+};
+constexpr Approach kFinal = {5, 2}, kScaffold = {4, 2}, kPadded = {3, 1};
+constexpr int kSmoothRounds = 2;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
 constexpr double kCostlyMiss = 0.1;
@@ -124,8 +133,9 @@ class Fitter {
       if (!pad_boundary(scaffold))
         context_.warn("no layer fits under the mesh's boundary; it is fitted without padding");
     });
-    clock_.run("fit1", 0.25, [&] { fit_smooth(scaffold, false); });
-    clock_.run("find features", 0.35, [&] { find_features(scaffold); });
+    clock_.run("find features", 0.25, [&] { find_features(scaffold); });
+    clock_.run("fit1", 0.3,
+               [&] { approach(scaffold, is_selective() ? kScaffold : kFinal, false); });
     Attempt result = fit_features(carved, scaffold);
     finish(result.state);
     return conclude(std::move(result));
@@ -153,8 +163,13 @@ class Fitter {
   FitTarget target() const { return {tree_, &features_}; }
 
   // From the carve's staircase to the surface; curves, if mapped, are held at first.
-  void fit_smooth(FitState& state, bool hold_curves) {
-    run_schedule(state, target(), {{0, 1, 0}, geometric_weights(1, 300, 8), 2, 0.03, hold_curves},
+  void approach(FitState& state, const Approach& how, bool hold_curves) {
+    run_schedule(state, target(),
+                 {{0, 1, 0},
+                  geometric_weights(1, 300, how.num_weights),
+                  how.sweeps_per_weight,
+                  0.03,
+                  hold_curves},
                  context_);
   }
 
@@ -193,7 +208,7 @@ class Fitter {
     clock_.run("map features", 0.4, [&] { map_curves(map_options, a); });
     if (is_selective()) {
       clock_.run("sheets", 0.42, [&] { pad(carved, a); });
-      clock_.run("fit1", 0.46, [&] { fit_smooth(a.state, true); });
+      clock_.run("fit1", 0.46, [&] { approach(a.state, kPadded, true); });
     }
     if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
     clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
@@ -239,7 +254,7 @@ class Fitter {
   // Onto the surface, and from the condition number's energy to the scaled Jacobian's.
   void fit_closely(FitState& state) {
     state.update_sizes();
-    run_schedule(state, target(), {{0.9, 1, 0}, geometric_weights(300, 1e5, 4), 2, 0.015, false},
+    run_schedule(state, target(), {{0.9, 1, 0}, geometric_weights(300, 1e5, 5), 1, 0.015, false},
                  context_);
   }
 

@@ -26,7 +26,8 @@ void run_locally(FitState& state, const std::vector<char>& region, const FitTarg
   const LocalSweep local(state, region);
   for (double weight : weights) {
     update_targets(state, target, 0, region);
-    for (int s = 0; s < 2; ++s) local.run(state, {shape, weight, 0.03});
+    mark_boundary_dirty(state, region);
+    for (int s = 0; s < 2; ++s) local.run_dirty(state, {shape, weight, 0.01});
   }
 }
 

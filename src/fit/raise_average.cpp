@@ -56,6 +56,7 @@ void sweep_for_average(FitState& state, double least, const AverageOptions& opti
     SweepOptions sweep_options{{1, options.power, 0}, 0, options.tolerance};
     sweep_options.quality_floor = least;
     sweep_options.edge_floor = kEdgeFloor;
+    sweep_options.relaxation = options.relaxation;
     sweep_options.hex_weight = &weight;
     sweep(state, sweep_options);
   }

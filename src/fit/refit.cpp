@@ -27,6 +27,11 @@ void grow_vert_set(const FitState& state, std::vector<char>& is_member, int ring
   }
 }
 
+void mark_boundary_dirty(FitState& state, const std::vector<char>& region) {
+  for (VertId v : state.kind.ids())
+    if (region[v.index()] && state.is_boundary(v)) state.is_dirty[v] = 1;
+}
+
 void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& options,
                  const Context& context) {
   for (int round = 0; round < options.max_rounds; ++round) {
@@ -46,9 +51,7 @@ void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& o
     for (double weight : {30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 1e5}) {
       context.check_cancelled();
       update_targets(state, target, 0, region);
-      // A new weight moves the boundary; the inside follows where the boundary moved.
-      for (VertId v : state.kind.ids())
-        if (region[v.index()] && state.is_boundary(v)) state.is_dirty[v] = 1;
+      mark_boundary_dirty(state, region);
       for (int s = 0; s < 3; ++s) local.run_dirty(state, {options.shape, weight, 0.01});
     }
   }

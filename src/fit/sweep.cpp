@@ -60,6 +60,7 @@ class Solver {
  private:
   VertexGoal goal_of(VertId v) {
     VertexGoal goal = make_goal(state_, v, options_.weight);
+    goal.relaxation = options_.relaxation;
     if (options_.hex_weight) {
       weights_.clear();
       for (const HexCorner& corner : state_.vert_to_hex[v])

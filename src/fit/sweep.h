@@ -24,6 +24,7 @@ struct SweepOptions {
   double edge_floor = 0;
   /// Factors of the hexes' shape energies; empty = all one.
   const IdVector<HexId, double>* hex_weight = nullptr;
+  double relaxation = 1;      ///< first trial step in Newton steps, in (0, 2)
   double untangle_share = 0;  ///< when positive: regularises determinants by this share of h^3
 };
 

@@ -413,7 +413,7 @@ double VertexNewton::solve(VertId v, std::span<const HexStar> star, const Vertex
   const double length = norm(step);
   if (!(length < 1e100) || length < 1e-6 * goal.max_step) return 0;
   HexLanes* lanes = scratch(lanes_, star.size());
-  double share = std::min(1.0, goal.max_step / length);
+  double share = std::min(goal.relaxation, goal.max_step / length);
   if (shape.untangle == 0) share = bound_step(lanes, star.size(), step, share);
   const double slope = dot(now.gradient, step);
   const Vec3 origin = positions[v];

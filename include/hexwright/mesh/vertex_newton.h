@@ -43,6 +43,9 @@ struct VertexGoal {
   Vec3 axis;
   /// Factors of the incident hexes' shape energies, in the star's order; empty = all one.
   std::span<const double> hex_weights;
+  /// Length of the first trial step in Newton steps, in (0, 2): above 1 is over-relaxation, with
+  /// which sweeps over a whole mesh converge in far fewer rounds.
+  double relaxation = 1;
   double max_step = 0;  ///< longest displacement of one solve; shorter than 1e-6 of it is no move
 };
 
