@@ -31,6 +31,7 @@ void FitState::resize_arrays() {
   offset.resize(n, 0);
   target.resize(n);
   direction.resize(n);
+  query.resize(n);
   move.resize(n, MoveIn::Space);
   axis.resize(n);
   size.resize(n, 0);

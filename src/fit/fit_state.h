@@ -2,6 +2,7 @@
 // the surface and which target it is pulled to.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "hexwright/base/context.h"
@@ -17,6 +18,14 @@ namespace hexwright::fitting {
 enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
 
 /// Copied as a whole to try a variant and go back.
+/// Where and how a Surface vertex last looked for its target: unless one of these changes, it would
+/// find the same again.
+struct TargetQuery {
+  Vec3 from{std::numeric_limits<double>::infinity(), 0, 0};
+  double offset = 0;
+  PatchId patch;
+};
+
 struct FitState {
   explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) { rebuild(); }
 
@@ -37,6 +46,7 @@ struct FitState {
   // What each vertex is pulled to (set by update_targets).
   IdVector<VertId, Vec3> target;
   IdVector<VertId, Vec3> direction;  ///< Surface: normal; Curve: tangent (maybe shorter than 1)
+  IdVector<VertId, TargetQuery> query;  ///< of Surface vertices: what target and direction are for
   IdVector<VertId, MoveIn> move;     ///< vertices on a fixed outer boundary move in it only
   IdVector<VertId, Vec3> axis;       ///< of that plane or line
   IdVector<VertId, double> size;     ///< h: mean length of boundary edges (inside: of all edges)

@@ -11,6 +11,10 @@
 namespace hexwright::fitting {
 namespace {
 
+// A vertex that moved by less than this, in h, since it last looked keeps its target: what it is pulled
+// to is a plane, off the surface by less than half the curvature times the square of the way.
+constexpr double kSamePlace = 0.01;
+
 // Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
 IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<const char> only) {
   IdVector<VertId, Vec3> normals(state.num_verts());
@@ -85,8 +89,14 @@ class SurfaceMatcher {
 };
 
 void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal) {
+  const TargetQuery query = {state.mesh.positions[v], state.offset[v], state.patch[v]};
+  TargetQuery& last = state.query[v];
+  if (query.patch == last.patch && query.offset == last.offset &&
+      norm_sq(query.from - last.from) < kSamePlace * kSamePlace * state.size[v] * state.size[v])
+    return;
   const auto found = SurfaceMatcher(state, tree, v, normal).find();
   if (!found) return;
+  last = query;
   const Vec3 offset = state.mesh.positions[v] - found->point;
   const double length = norm(offset), h = state.size[v];
   Vec3 direction = length < 1e-3 * h ? tree.normal(found->tri) : offset / length;
