@@ -45,12 +45,12 @@ struct FitState {
 
   // What each vertex is pulled to (set by update_targets).
   IdVector<VertId, Vec3> target;
-  IdVector<VertId, Vec3> direction;  ///< Surface: normal; Curve: tangent (maybe shorter than 1)
+  IdVector<VertId, Vec3> direction;     ///< Surface: normal; Curve: tangent (maybe shorter than 1)
   IdVector<VertId, TargetQuery> query;  ///< of Surface vertices: what target and direction are for
-  IdVector<VertId, MoveIn> move;     ///< vertices on a fixed outer boundary move in it only
-  IdVector<VertId, Vec3> axis;       ///< of that plane or line
-  IdVector<VertId, double> size;     ///< h: mean length of boundary edges (inside: of all edges)
-  IdVector<VertId, char> is_dirty;   ///< worth solving: it, a neighbour or its target moved
+  IdVector<VertId, MoveIn> move;        ///< vertices on a fixed outer boundary move in it only
+  IdVector<VertId, Vec3> axis;          ///< of that plane or line
+  IdVector<VertId, double> size;        ///< h: mean length of boundary edges (inside: of all edges)
+  IdVector<VertId, char> is_dirty;      ///< worth solving: it, a neighbour or its target moved
 
   // Derived from the mesh by rebuild().
   VertToHex vert_to_hex;

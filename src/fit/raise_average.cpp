@@ -28,17 +28,26 @@ double integer_power(double x, int n) {
   return result;
 }
 
+// The mean over the corners of J^-2p. No roots are needed: J^-2 is a ratio of squares.
+double mean_power(const std::array<Vec3, 8>& corners, int power) {
+  double sum = 0;
+  for (std::size_t lv = 0; lv < 8; ++lv) {
+    const auto& n = kHexCornerNeighbors[lv];
+    std::array<Vec3, 3> e;
+    for (std::size_t k = 0; k < 3; ++k)
+      e[k] = corners[static_cast<std::size_t>(n[k])] - corners[lv];
+    const double d = det(e[0], e[1], e[2]);
+    sum += integer_power(norm_sq(e[0]) * norm_sq(e[1]) * norm_sq(e[2]) / (d * d), power);
+  }
+  return sum / 8;
+}
+
 IdVector<HexId, double> compute_weights(const HexMesh& mesh, int power) {
   IdVector<HexId, double> weight(mesh.num_hexes(), 1);
   parallel_for(
       mesh.num_hexes(),
       [&](std::size_t i) {
-        const auto corners = mesh.corners(HexId(i));
-        double mean = 0;
-        for (int lv = 0; lv < 8; ++lv) {
-          const double j = corner_scaled_jacobian(corners, lv);
-          mean += integer_power(1 / (j * j), power) / 8;
-        }
+        const double mean = mean_power(mesh.corners(HexId(i)), power);
         // mean^(-1/2p - 1), as a soft minimum over the mean.
         weight[HexId(i)] = std::pow(mean, -0.5 / power) / mean;
       },

@@ -11,8 +11,9 @@
 namespace hexwright::fitting {
 namespace {
 
-// A vertex that moved by less than this, in h, since it last looked keeps its target: what it is pulled
-// to is a plane, off the surface by less than half the curvature times the square of the way.
+// A vertex that moved by less than this, in h, since it last looked keeps its target: what it is
+// pulled to is a plane, off the surface by less than half the curvature times the square of the
+// way.
 constexpr double kSamePlace = 0.01;
 
 // Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
