@@ -49,6 +49,36 @@ TEST(Targets, AreTheClosestPointsOfASphere) {
   EXPECT_GT(boundary, 100);
 }
 
+// A small way along a plane leaves the plane; farther, or with another offset or patch, it does
+// not.
+TEST(Targets, AreLookedForAgainWhereSomethingChanged) {
+  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
+  const HexMesh grid = test::grid_around(sphere.box(), 0.25);
+  const FitState start(extract_hexes(grid, carve(grid, sphere, {}, {}).is_kept));
+  int asked = 0;
+  for (VertId v : start.kind.ids()) {
+    if (!start.is_boundary(v) || v.index() % 7 != 0) continue;
+    ++asked;
+    FitState state = start;
+    const auto target_after = [&](auto&& change) {
+      change();
+      update_targets(state, {sphere, nullptr}, 0);
+      return state.target[v];
+    };
+    const double h = state.size[v];
+    const Vec3 tangent = normalized(cross(state.mesh.positions[v], Vec3{0.3, 0.2, 1}));
+    const Vec3 first = target_after([] {});
+    EXPECT_EQ(target_after([&] { state.mesh.positions[v] += 0.005 * h * tangent; }), first);
+    const Vec3 second = target_after([&] { state.mesh.positions[v] += 0.2 * h * tangent; });
+    EXPECT_NEAR(distance(second, state.mesh.positions[v]), sphere.distance(state.mesh.positions[v]),
+                1e-9);
+    EXPECT_NE(second, first);
+    const Vec3 third = target_after([&] { state.offset[v] = 0.1 * h; });
+    EXPECT_NEAR(distance(third, second), 0.1 * h, 1e-9);
+  }
+  EXPECT_GT(asked, 20);
+}
+
 TEST(Fit, ReachesASphereWithGoodElements) {
   const SurfaceTree sphere(test::welded(test::unit_sphere_surface(5)));
   const FitResult result = fit(test::grid_around(sphere.box(), 0.12), sphere, {}, {});
