@@ -18,7 +18,7 @@ void mark_boundary_dirty(FitState& state, const std::vector<char>& region);
 struct RefitOptions {
   int max_rounds = 2;
   double stuck = 0.04;  ///< residual, in h, of a vertex that did not reach its target
-  int rings = 3;
+  int rings = 2;
   ShapeEnergy shape{0.9, 1, 0};
 };
 /// Fits the surroundings of stuck vertices anew, from a low to a high attachment weight.
