@@ -39,6 +39,8 @@ struct Approach {
   int num_weights, sweeps_per_weight;
 };
 constexpr Approach kFinal = {5, 2}, kScaffold = {4, 2}, kPadded = {3, 1};
+// The same for the last part of the way, where smooth models settle what their least will be.
+constexpr Approach kClose = {4, 2}, kClosePadded = {5, 1};
 constexpr int kSmoothRounds = 2;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
@@ -254,7 +256,13 @@ class Fitter {
   // Onto the surface, and from the condition number's energy to the scaled Jacobian's.
   void fit_closely(FitState& state) {
     state.update_sizes();
-    run_schedule(state, target(), {{0.9, 1, 0}, geometric_weights(300, 1e5, 5), 1, 0.015, false},
+    const Approach how = is_selective() ? kClosePadded : kClose;
+    run_schedule(state, target(),
+                 {{0.9, 1, 0},
+                  geometric_weights(300, 1e5, how.num_weights),
+                  how.sweeps_per_weight,
+                  0.015,
+                  false},
                  context_);
   }
 
