@@ -20,4 +20,21 @@ struct SheetChoice {
 std::vector<char> extrude_regions(FitState& state, FeatureMarks& marks,
                                   const FeatureGraph& features, const SheetChoice& choice);
 
+/// Sheets around sets of hexes. A sheet covers its set where the set has chosen boundary quads and
+/// towards the other hexes; the set's other boundary quads stay on the boundary.
+struct WrapChoice {
+  IdVector<HexId, int> hex_to_sheet;    ///< sets of different sheets share no vertex
+  IdVector<QuadId, int> quad_to_sheet;  ///< chosen quads of the sets; SheetChoice::kNone elsewhere
+  std::size_t num_sheets = 0;
+};
+
+struct WrapOutcome {
+  std::vector<char> is_done;    ///< per sheet
+  std::vector<VertId> blocked;  ///< ascending: vertices that sheets could not pass
+};
+
+/// As extrude_regions: the hexes of a set get copies, the others and chosen quads the originals.
+WrapOutcome wrap_hexes(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
+                       const WrapChoice& choice);
+
 }  // namespace hexwright::fitting

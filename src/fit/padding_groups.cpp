@@ -25,14 +25,13 @@ class GroupFinder {
     unite_across_curves();
     while (unite_where_infeasible()) continue;
     number_groups();
-    count_edge_needs();
-    count_squeeze_needs();
+    const auto needs = find_padding_needs(state_, marks_, marked_, convex_share_, groups_);
+    for (const PaddingNeed& need : needs) ++groups_.num_needs[need.group];
     return std::move(groups_);
   }
 
  private:
   int root(QuadId q) { return sets_.find(marks_.quad_to_region[q].value()); }
-  GroupId group(QuadId q) const { return groups_.region_to_group[marks_.quad_to_region[q]]; }
 
   void unite_across_curves() {
     for (BoundaryEdgeId e : marked_.edge_to_curve.ids()) {
@@ -76,8 +75,38 @@ class GroupFinder {
     }
     groups_.num_quads.assign(count, 0);
     groups_.num_needs.assign(count, 0);
-    for (QuadId q : marks_.quad_to_region.ids()) ++groups_.num_quads[group(q)];
+    for (QuadId q : marks_.quad_to_region.ids())
+      ++groups_.num_quads[groups_.region_to_group[marks_.quad_to_region[q]]];
   }
+
+  const FitState& state_;
+  const FeatureMarks& marks_;
+  const MarkedGraph& marked_;
+  const IdVector<CurveId, double>& convex_share_;
+  UnionFind sets_;
+  PaddingGroups groups_;
+};
+
+class NeedFinder {
+ public:
+  NeedFinder(const FitState& state, const FeatureMarks& marks, const MarkedGraph& marked,
+             const IdVector<CurveId, double>& convex_share, const PaddingGroups& groups)
+      : state_(state),
+        marks_(marks),
+        marked_(marked),
+        convex_share_(convex_share),
+        groups_(groups) {}
+
+  std::vector<PaddingNeed> run() {
+    find_edge_needs();
+    find_squeeze_needs();
+    std::stable_sort(needs_.begin(), needs_.end(),
+                     [](const PaddingNeed& x, const PaddingNeed& y) { return x.group < y.group; });
+    return std::move(needs_);
+  }
+
+ private:
+  GroupId group(QuadId q) const { return groups_.region_to_group[marks_.quad_to_region[q]]; }
 
   /// Hexes of the kept side around each boundary edge.
   IdVector<BoundaryEdgeId, int> count_hexes_around() const {
@@ -96,26 +125,27 @@ class GroupFinder {
 
   /// An edge inside a smooth part with one hex around it; a concave edge with one; a convex edge
   /// with three or more, which a sheet on either side mends: the smaller side gets it.
-  void count_edge_needs() {
+  void find_edge_needs() {
     const auto num_hexes = count_hexes_around();
     for (BoundaryEdgeId e : num_hexes.ids()) {
       const auto& edge = marked_.graph.edge(e);
       if (edge.num_quads != 2) continue;
       const GroupId a = group(edge.quads[0]), b = group(edge.quads[1]);
       if (!marked_.is_marked(e)) {
-        if (num_hexes[e] == 1) ++groups_.num_needs[a];
+        if (num_hexes[e] == 1) needs_.push_back({a, edge.a, edge.b});
       } else if (convex_share_[marked_.edge_to_curve[e]] < 0.5) {
         if (num_hexes[e] != 1) continue;
-        ++groups_.num_needs[a];
-        ++groups_.num_needs[b];
+        needs_.push_back({a, edge.a, edge.b, true});
+        if (b != a) needs_.push_back({b, edge.a, edge.b, true});
       } else if (num_hexes[e] >= 3) {
-        ++groups_.num_needs[groups_.num_quads[a] < groups_.num_quads[b] ? a : b];
+        const GroupId smaller = groups_.num_quads[a] < groups_.num_quads[b] ? a : b;
+        needs_.push_back({smaller, edge.a, edge.b});
       }
     }
   }
 
   /// A quad squeezed at a curve vertex is mended by the sheet of the group across the curve.
-  void count_squeeze_needs() {
+  void find_squeeze_needs() {
     for (QuadId q : marks_.quad_to_region.ids()) {
       const auto& edges = marked_.graph.quad_edges(q);
       for (std::size_t k = 0; k < 4; ++k) {
@@ -125,7 +155,7 @@ class GroupFinder {
         for (BoundaryEdgeId e : {e0, e1}) {
           if (marked_.graph.edge(e).num_quads != 2) continue;
           const GroupId other = group(marked_.graph.edge(e).other(q));
-          if (other != group(q)) ++groups_.num_needs[other];
+          if (other != group(q)) needs_.push_back({other, state_.quads[q.index()][k], {}});
         }
       }
     }
@@ -135,8 +165,8 @@ class GroupFinder {
   const FeatureMarks& marks_;
   const MarkedGraph& marked_;
   const IdVector<CurveId, double>& convex_share_;
-  UnionFind sets_;
-  PaddingGroups groups_;
+  const PaddingGroups& groups_;
+  std::vector<PaddingNeed> needs_;
 };
 
 }  // namespace
@@ -145,6 +175,13 @@ PaddingGroups find_padding_groups(const FitState& state, const FeatureMarks& mar
                                   const MarkedGraph& marked,
                                   const IdVector<CurveId, double>& convex_share) {
   return GroupFinder(state, marks, marked, convex_share).run();
+}
+
+std::vector<PaddingNeed> find_padding_needs(const FitState& state, const FeatureMarks& marks,
+                                            const MarkedGraph& marked,
+                                            const IdVector<CurveId, double>& convex_share,
+                                            const PaddingGroups& groups) {
+  return NeedFinder(state, marks, marked, convex_share, groups).run();
 }
 
 }  // namespace hexwright::fitting

@@ -9,6 +9,7 @@
 #include "fit/curve_convexity.h"
 #include "fit/extrude_regions.h"
 #include "fit/finish.h"
+#include "fit/local_sheets.h"
 #include "fit/padding_groups.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
@@ -23,6 +24,9 @@ constexpr int kSweepsAfterBatch = 3;
 constexpr int kSweepsBeforeRetry = 6;
 constexpr int kRingsBeforeRetry = 2;  // around the groups that found no room
 constexpr double kRelaxWeight = 3;
+// Sheets around what is in need go before a layer when they take at most so many hexes of the
+// layer's: their own walls are less regular than a layer.
+constexpr double kLocalShare = 0.4;
 
 /// Kinds, places and marks of the scaffold's boundary on the carved mesh.
 void transfer_features(const FitState& scaffold, const FeatureMarks& scaffold_marks,
@@ -55,7 +59,34 @@ class SelectivePadder {
   }
 
   SelectivePadding run() {
-    std::vector<GroupId> todo = choose_groups();
+    find_groups();
+    while (true) {
+      SelectivePadding best = pad_with_layers();
+      if (wrap_needs(best)) return best;
+    }
+  }
+
+ private:
+  /// Local sheets come last, for layers leave more room beside them than they beside layers. Groups
+  /// that found no room for their layer get them too. False when needs remain in a group that was
+  /// to get no layer: then it gets one after all.
+  bool wrap_needs(SelectivePadding& padding) {
+    IdVector<GroupId, char> is_chosen = is_local_;
+    for (GroupId g : failed_) is_chosen[g] = 1;
+    const auto num_left = insert_local_sheets(
+        padding.state, padding.marks, {*target_.features, groups_, convex_share_}, is_chosen);
+    bool is_done = true;
+    for (GroupId g : num_left.ids()) {
+      if (num_left[g] == 0 || is_local_[g] == 0) continue;
+      is_local_[g] = 0;
+      is_done = false;
+    }
+    return is_done;
+  }
+
+  /// The best of several orders of the layers.
+  SelectivePadding pad_with_layers() {
+    std::vector<GroupId> todo = choose_layers();
     std::optional<SelectivePadding> best;
     const auto max_failed_quads =
         static_cast<std::size_t>(kNegligible * static_cast<double>(start_.state.quads.size()));
@@ -69,6 +100,7 @@ class SelectivePadder {
       ++num_futile;
       if (!best || attempt.report.num_failed_quads < best->report.num_failed_quads) {
         best = std::move(attempt);
+        failed_ = failed;
         num_futile = 0;
       }
       if (best->report.num_failed_quads <= max_failed_quads) break;
@@ -77,23 +109,35 @@ class SelectivePadder {
     return std::move(*best);
   }
 
- private:
-  /// Groups with a need, small ones first.
-  std::vector<GroupId> choose_groups() {
-    auto convex_share = compute_convex_shares(target_.tree.surface(), *target_.features);
+  void find_groups() {
+    convex_share_ = compute_convex_shares(target_.tree.surface(), *target_.features);
     if (start_.state.side == Side::Outside)
-      for (double& share : convex_share) share = 1 - share;
-    const MarkedGraph marked(start_.state, start_.marks);
-    groups_ = find_padding_groups(start_.state, start_.marks, marked, convex_share);
+      for (double& share : convex_share_) share = 1 - share;
+    {
+      const MarkedGraph marked(start_.state, start_.marks);
+      groups_ = find_padding_groups(start_.state, start_.marks, marked, convex_share_);
+    }
+    start_.report.num_groups = groups_.num_quads.size();
+    const auto num_local =
+        count_local_hexes(start_.state, start_.marks, {*target_.features, groups_, convex_share_});
+    is_local_.assign(groups_.num_quads.size(), 0);
+    for (GroupId g : groups_.num_needs.ids()) {
+      if (groups_.num_needs[g] == 0) continue;
+      ++start_.report.num_needed;
+      const double most = kLocalShare * static_cast<double>(groups_.num_quads[g]);
+      is_local_[g] = num_local[g] && static_cast<double>(*num_local[g]) <= most ? 1 : 0;
+    }
+  }
+
+  /// Groups with a need, small ones first.
+  std::vector<GroupId> choose_layers() {
     std::vector<GroupId> todo;
     for (GroupId g : groups_.num_needs.ids())
-      if (groups_.num_needs[g] > 0) todo.push_back(g);
+      if (groups_.num_needs[g] > 0 && is_local_[g] == 0) todo.push_back(g);
     std::stable_sort(todo.begin(), todo.end(), [&](GroupId x, GroupId y) {
       return groups_.num_quads[x] < groups_.num_quads[y];
     });
     is_urgent_.assign(groups_.num_quads.size(), 0);
-    start_.report.num_groups = groups_.num_quads.size();
-    start_.report.num_needed = todo.size();
     return todo;
   }
 
@@ -196,7 +240,10 @@ class SelectivePadder {
   SelectivePadding start_;
   const FitTarget& target_;
   const Context& context_;
+  IdVector<CurveId, double> convex_share_;  // seen from outside the mesh
   PaddingGroups groups_;
+  std::vector<GroupId> failed_;        // found no room for their layer in the best start
+  IdVector<GroupId, char> is_local_;   // gets sheets around what is in need only
   IdVector<GroupId, char> is_urgent_;  // failed in an earlier start
 };
 

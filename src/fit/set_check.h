@@ -31,6 +31,9 @@ class SetCheck {
   /// Requires normals n of the set's boundary quads at v with n . d >= least_cosine for some d.
   SetFault check(VertId v, const std::vector<char>& in_set, double least_cosine);
 
+  /// Whether the set's hexes around v, and the others, are each connected by faces at v.
+  bool is_manifold(VertId v, const std::vector<char>& in_set) { return is_connected(v, in_set); }
+
   /// The best direction out of the set at v (zero when the set has no boundary there).
   VisibleDirection direction(VertId v, const std::vector<char>& in_set);
 
