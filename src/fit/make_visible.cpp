@@ -80,7 +80,8 @@ class VisibleMover {
       Vec3 to = from;
       for (int d = 0; d < 27; ++d) {
         if (d == 13) continue;  // no move
-        const Vec3 p = from + normalized(Vec3{d % 3 - 1.0, d / 3 % 3 - 1.0, d / 9 - 1.0}) * step;
+        const int x = d % 3, y = d / 3 % 3, z = d / 9;
+        const Vec3 p = from + normalized(Vec3{x - 1.0, y - 1.0, z - 1.0}) * step;
         state_.mesh.positions[v] = p;
         const double seen = cosine(i);
         if (seen <= best || jacobian_around(v, p) < least_jacobian) continue;

@@ -24,9 +24,11 @@ constexpr int kSweepsAfterBatch = 3;
 constexpr int kSweepsBeforeRetry = 6;
 constexpr int kRingsBeforeRetry = 2;  // around the groups that found no room
 constexpr double kRelaxWeight = 3;
-// Sheets around what is in need go before a layer when they take at most so many hexes of the
-// layer's: their own walls are less regular than a layer.
-constexpr double kLocalShare = 0.4;
+// Sheets around what is in need replace a layer that would take several times as many hexes: their
+// walls are less regular than a layer. Under a small group a layer costs little, and the vertices
+// that it adds to the curves at its corners follow them more closely.
+constexpr std::size_t kLeastQuads = 100;
+constexpr double kLocalShare = 1.0 / 3;
 
 /// Kinds, places and marks of the scaffold's boundary on the carved mesh.
 void transfer_features(const FitState& scaffold, const FeatureMarks& scaffold_marks,
@@ -125,6 +127,7 @@ class SelectivePadder {
       if (groups_.num_needs[g] == 0) continue;
       ++start_.report.num_needed;
       const double most = kLocalShare * static_cast<double>(groups_.num_quads[g]);
+      if (groups_.num_quads[g] < kLeastQuads) continue;
       is_local_[g] = num_local[g] && static_cast<double>(*num_local[g]) <= most ? 1 : 0;
     }
   }
