@@ -1,6 +1,8 @@
 // Most squeezed quads are flat enough after the fit; hexes are spent only on the others.
 #include "fit/pillow_failed.h"
 
+#include <algorithm>
+
 #include "fit/finish.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
@@ -21,6 +23,10 @@ std::vector<char> find_failed(const FitState& state, const FailedOptions& option
   return has_failed;
 }
 
+std::size_t count(const std::vector<char>& flags) {
+  return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
+}
+
 void run_locally(FitState& state, const std::vector<char>& region, const FitTarget& target,
                  const ShapeEnergy& shape, const std::vector<double>& weights) {
   const LocalSweep local(state, region);
@@ -39,16 +45,24 @@ PillowReport pillow_failed_quads(FitState& state, FeatureMarks& marks, const Fit
   PillowOptions pillow;
   pillow.whole_regions = false;
   pillow.is_wanted = find_failed(state, options);
-  const std::size_t num_old = state.num_verts();
-  const PillowReport report = pillow_squeezed_quads(state, marks, pillow);
+  const std::size_t num_failed = count(pillow.is_wanted);
+  if (num_failed == 0) return {};
+  FitState tried = state;
+  FeatureMarks tried_marks = marks;
+  const PillowReport report = pillow_squeezed_quads(tried, tried_marks, pillow);
   if (report.num_pillows == 0) return report;
-  std::vector<char> region(state.num_verts(), 0);
-  for (std::size_t v = num_old; v < region.size(); ++v) region[v] = 1;
-  grow_vert_set(state, region, options.rings);
-  run_locally(state, region, target, {0, 1, 0}, geometric_weights(3, 300, 5));
+  std::vector<char> region(tried.num_verts(), 0);
+  for (std::size_t v = state.num_verts(); v < region.size(); ++v) region[v] = 1;
+  grow_vert_set(tried, region, options.rings);
+  run_locally(tried, region, target, {0, 1, 0}, geometric_weights(3, 300, 5));
   context.check_cancelled();
-  run_locally(state, region, target, {0.9, 1, 0}, geometric_weights(300, 1e5, 5));
-  refit_stuck(state, target, {}, context);
+  run_locally(tried, region, target, {0.9, 1, 0}, geometric_weights(300, 1e5, 5));
+  refit_stuck(tried, target, {}, context);
+  update_targets(tried, target, 0);
+  const auto most = options.worthwhile * static_cast<double>(num_failed);
+  if (static_cast<double>(count(find_failed(tried, options))) > most) return {};
+  state = std::move(tried);
+  marks = std::move(tried_marks);
   return report;
 }
 
