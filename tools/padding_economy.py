@@ -6,7 +6,7 @@ Example: tools/padding_economy.py build/release/hexwright ../shared/data/models
 
 The grid of a model is that of its result (`hexwright mesh --save-grid`, with the options after `--`); `--rounds 0` gives
 the loop's first grid. Its hexes are fitted with either padding. A model counts as featured when its surface has feature
-curves of which a tenth or more of the length is mapped. Seconds are those of the processor, of all passes of the fit.
+curves of which a tenth or more of the length is mapped.
 """
 import argparse
 import json
@@ -49,17 +49,16 @@ def is_featured(report):
 
 def fit(background, model, padding, args, folder):
     """Figures of one fit; None when it gave no mesh."""
-    mesh, report = folder / "fitted.vtu", folder / "fit.json"
+    mesh = folder / "fitted.vtu"
     mesh.unlink(missing_ok=True)
-    run(args, "fit", background, model, "-o", mesh, "--padding", padding, "--report", report, "--quiet", "--threads", 1)
+    run(args, "fit", background, model, "-o", mesh, "--padding", padding, "--quiet", "--threads", 1)
     if not mesh.exists():
         return None
     verdict = json.loads(run(args, "check", mesh, model, "--json"))
     quality, distance = verdict["quality"], verdict["distance"]
     return {"hexes": verdict["topology"]["hexes"], "min": quality["min_scaled_jacobian"],
             "avg": quality["avg_scaled_jacobian"], "max": 100 * distance["max"], "mean": 100 * distance["mean"],
-            "share": 100 * verdict["features"]["length_share"],
-            "seconds": sum(json.loads(report.read_text())["processor_seconds"].values())}
+            "share": 100 * verdict["features"]["length_share"]}
 
 
 def saved(pair):
@@ -68,8 +67,7 @@ def saved(pair):
 
 def row(name, pair):
     columns = [" / ".join(f"{pair[p][k]:{f}}" for p in ("selective", "everywhere")) for k, f in
-               (("hexes", ","), ("min", ".2f"), ("avg", ".2f"), ("max", ".2f"), ("mean", ".4f"), ("share", ".1f"),
-                ("seconds", ".1f"))]
+               (("hexes", ","), ("min", ".2f"), ("avg", ".2f"), ("max", ".2f"), ("mean", ".4f"), ("share", ".1f"))]
     return f"| {name} | {columns[0]} | {100 * saved(pair):.0f}% | " + " | ".join(columns[1:]) + " |"
 
 
@@ -92,8 +90,8 @@ def main():
     args = parser.parse_args()
     models = sorted(m for m in args.models.iterdir() if m.suffix.lower() in SURFACES) if args.models.is_dir() else [args.models]
     pairs = []
-    print("| model | hexes selective / everywhere | saved | least scaled Jacobian | average | max % | mean % | curves met % | s |")
-    print("|---|--:|--:|---|---|---|---|---|---|")
+    print("| model | hexes selective / everywhere | saved | least scaled Jacobian | average | max % | mean % | curves met % |")
+    print("|---|--:|--:|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for model in models:

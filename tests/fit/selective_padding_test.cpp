@@ -9,6 +9,7 @@
 #include "fit/extrude_regions.h"
 #include "fit/pad_boundary.h"
 #include "fit/padding_groups.h"
+#include "fit/pillow_failed.h"
 #include "fit/sweep.h"
 #include "fit/targets.h"
 
@@ -134,6 +135,59 @@ TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
   EXPECT_EQ(problem_of(result.state, result.marks), "");
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
+}
+
+TEST(PillowFailed, KeepsPillowsOnlyWhenTheyMend) {
+  const Scaffold s(turned_cube(0.4), test::box_hex_mesh(16, 16, 16));
+  FailedOptions options;
+  options.low = 2;  // every vertex of a curve has failed, and none is ever mended
+  options.worthwhile = 0.99;
+  FitState state = s.padded;
+  FeatureMarks marks = s.attached.marks;
+  const HexMesh before = state.mesh;
+  const FitTarget target{s.tree, &s.features};
+  EXPECT_EQ(pillow_failed_quads(state, marks, target, options, {}).num_pillows, 0u);
+  EXPECT_EQ(state.mesh.hexes, before.hexes);
+  EXPECT_EQ(state.mesh.positions, before.positions);
+  options.worthwhile = 100;  // whatever is left
+  const PillowReport report = pillow_failed_quads(state, marks, target, options, {});
+  EXPECT_GT(report.num_pillows, 0u);
+  EXPECT_EQ(state.mesh.num_hexes(), before.num_hexes() + report.num_hexes);
+  EXPECT_EQ(problem_of(state, marks), "");
+}
+
+TEST(PillowFailed, DoesNothingWhereNothingFailed) {
+  const Scaffold s(turned_cube(0.4), test::box_hex_mesh(16, 16, 16));
+  FailedOptions options;
+  options.low = -1;
+  options.stuck = 1e9;
+  FitState state = s.padded;
+  FeatureMarks marks = s.attached.marks;
+  pillow_failed_quads(state, marks, {s.tree, &s.features}, options, {});
+  EXPECT_EQ(state.mesh.hexes, s.padded.mesh.hexes);
+  EXPECT_EQ(state.mesh.positions, s.padded.mesh.positions);
+}
+
+/// A slab that is in line with the grid but for one gentle slope of its top.
+TEST(SelectivePadding, WrapsTheFewStepsOfALargeRegion) {
+  TriMesh slab = test::unit_cube_surface();
+  test::transform(slab.positions, [](const Vec3& p) {
+    return Vec3{2 + 30 * p.x, 2 + 16 * p.y, 2 + p.z * (3.3 + 1.2 * p.x)};
+  });
+  const Scaffold s(slab, test::box_hex_mesh(34, 20, 9));
+  const SelectivePadding result = s.pad();
+  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(result.report.num_needed, 1u);
+  EXPECT_EQ(result.report.num_sheets, 0u);  // of layers
+  const std::size_t num_wrapped = result.state.mesh.num_hexes() - s.carved.mesh.num_hexes();
+  EXPECT_GT(num_wrapped, 0u);
+  EXPECT_LT(num_wrapped, 30u * 16u / 2);
+  FitOptions options;
+  const FitResult fitted = fit(test::box_hex_mesh(34, 20, 9), s.tree, options, {});
+  EXPECT_GT(min_jacobian(fitted.mesh), 0.3);
+  for (const HexFace& face : compute_hex_neighbors(fitted.mesh).boundary)
+    for (VertId v : face_verts(fitted.mesh, face))
+      EXPECT_LT(s.tree.distance(fitted.mesh.positions[v]), 0.05);
 }
 
 /// Two opposite faces of a box as two sheets of one batch.
