@@ -51,13 +51,22 @@ std::vector<std::uint64_t> user_keys(const TriMesh& surface,
   return keys;
 }
 
+/// From this share of the diagonal on needles along an edge are how a strip beside it is
+/// triangulated, as on extruded profiles; along shorter ones they are slivers, whose normals make
+/// creases of noise.
+constexpr double kLongEdge = 0.03;
+
 /// Whether some part of the edge, at a few points, lies on the boundary of the solid.
 bool is_exposed(const SurfaceTree& tree, const SurfaceEdges& edges, std::size_t e) {
   const TriMesh& surface = tree.surface();
   const Vec3 a = surface.positions[edges.lo(e)], b = surface.positions[edges.hi(e)];
+  const bool is_long = distance(a, b) > kLongEdge * tree.box().diagonal();
   for (double along : {0.5, 0.1, 0.9, 0.3, 0.7})
-    for (const auto& side : edges.sides_of(e))
-      if (bounds_solid(tree, side.tri, a + (b - a) * along)) return true;
+    for (const auto& side : edges.sides_of(e)) {
+      const Vec3 p = a + (b - a) * along;
+      if (bounds_solid(tree, side.tri, p)) return true;
+      if (is_long && bounds_solid_closely(tree, side.tri, p)) return true;
+    }
   return false;
 }
 

@@ -1,5 +1,8 @@
 #include "hexwright/geometry/exposure.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "geometry/random_soup.h"
@@ -40,6 +43,47 @@ TEST(Exposure, EveryPointOfAClosedSurfaceBoundsIt) {
   }
 }
 
+/// The ridge of a long wedge along x, with `count` needles on each side of it next to the ridge.
+TriMesh needle_wedge(double angle, double width, int count) {
+  TriMesh t;  // per end: the ridge, then rows of points down both sides, then the back
+  const double s = std::sin(angle / 2), c = std::cos(angle / 2);
+  std::vector<Vec3> outline{{0, 0, 0}};
+  for (int i = 1; i <= count; ++i) outline.push_back({0, s * width * i, -c * width * i});
+  for (int i = count; i >= 1; --i) outline.push_back({0, -s * width * i, -c * width * i});
+  const auto n = static_cast<int>(outline.size());
+  for (double x : {0.0, 1.0})
+    for (const Vec3& p : outline) t.positions.push_back({x, p.y, p.z});
+  const auto add = [&](int a, int b, int d) {
+    t.tris.push_back({VertId(a), VertId(b), VertId(d)});
+  };
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    add(i, j + n, j);
+    add(i, i + n, j + n);
+  }
+  for (int i = 1; i + 1 < n; ++i) {
+    add(0, i, i + 1);
+    add(n, n + i + 1, n + i);
+  }
+  return t;
+}
+
+// The step off a needle must not leave the wedge by its other side.
+TEST(Exposure, RidgesBetweenNeedlesBoundTheirWedgeSeenClosely) {
+  for (double degrees : {10.0, 20.0, 60.0})
+    for (double width : {1e-2, 1e-3, 1e-5}) {
+      const TriMesh wedge = needle_wedge(degrees * std::numbers::pi / 180, width, 3);
+      const SurfaceTree tree(wedge);
+      for (int i = 0; i < 14; ++i) {  // those along the ridge; the ends are triangulated badly
+        const TriId t(i);
+        const auto c = wedge.corners(t);
+        for (double along : {0.0, 0.1, 0.5, 1.0})
+          EXPECT_TRUE(bounds_solid_closely(tree, t, c[0] + (c[1] - c[0]) * along))
+              << degrees << " " << width;
+      }
+    }
+}
+
 // Two overlapping cubes: a point of one bounds the union exactly when the other does not hold it.
 TEST(Exposure, AgreesWithTheUnionOfOverlappingCubes) {
   const Vec3 low = {0.4, 0.3, 0.2};
@@ -73,6 +117,19 @@ TEST(Exposure, CavitiesBoundAndShellsOfEqualOrientationDoNot) {
       EXPECT_EQ(bounds_solid(tree, t, (c[0] + c[1] + c[2]) / 3), reversed || t.value() < 12);
     }
   }
+}
+
+TEST(Exposure, CloselySeenAgreesOnShapelyTriangles) {
+  TriMesh nested;
+  append_cube(nested, 1, {}, false);
+  append_cube(nested, 0.5, {0.2, 0.2, 0.2}, false);
+  const SurfaceTree tree(nested);
+  std::mt19937_64 random(8);
+  for (TriId t : nested.tris.ids())
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = random_in_triangle(random, nested.corners(t));
+      EXPECT_EQ(bounds_solid_closely(tree, t, p), bounds_solid(tree, t, p));
+    }
 }
 
 TEST(Exposure, ADoubledSheetAndATriangleWithoutAreaBoundNothing) {
