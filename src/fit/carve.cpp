@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <span>
 
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "base/disjoint_sets.h"
 #include "fit/approach_set.h"
 #include "fit/carve_classify.h"
 #include "fit/carve_repair.h"
@@ -52,22 +55,22 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
       std::count_if(volume.begin(), volume.end(), [&](double x) { return x >= least; }));
 }
 
-// A hex with the surface near its centre but no boundary of the kept set at any vertex: the part or
-// gap there is thinner than the grid.
-std::vector<Vec3> find_lost_places(const HexMesh& mesh, const HexFilling& filling,
+// Hexes with the surface near their centres but no boundary of the kept set at any vertex: the part
+// or gap there is thinner than the grid.
+std::vector<HexId> find_lost_hexes(const HexMesh& mesh, const HexFilling& filling,
                                    const std::vector<char>& is_kept) {
   IdVector<VertId, char> sides(mesh.num_verts(),
                                0);  // bit 0: a dropped hex here, bit 1: a kept one
   for (HexId h : mesh.hexes.ids())
     for (VertId v : mesh.hexes[h])
       sides[v] = static_cast<char>(sides[v] | (is_kept[h.index()] ? 2 : 1));
-  std::vector<Vec3> lost;
+  std::vector<HexId> lost;
   for (HexId h : mesh.hexes.ids()) {
     if (!filling.is_near[h]) continue;
     const auto& verts = mesh.hexes[h];
     const bool at_boundary =
         std::any_of(verts.begin(), verts.end(), [&](VertId v) { return sides[v] == 3; });
-    if (!at_boundary) lost.push_back(filling.nearest[h]);
+    if (!at_boundary) lost.push_back(h);
   }
   return lost;
 }
@@ -101,12 +104,10 @@ struct KeptSet {
   double threshold = 0.5;
 };
 
-KeptSet keep_above(const SetScene& scene, double threshold, const CarveOptions& options) {
+// Makes the set manifold, drops crumbs and counts.
+KeptSet complete_set(const SetScene& scene, std::vector<char> in_set, const CarveOptions& options) {
   KeptSet kept;
-  kept.threshold = threshold;
-  kept.in_set.resize(scene.mesh.num_hexes());
-  for (HexId h : scene.mesh.hexes.ids())
-    kept.in_set[h.index()] = scene.filling.fraction[h] > threshold;
+  kept.in_set = std::move(in_set);
   kept.repair = fitting::repair_set(scene.mesh, scene.vert_to_hex, scene.neighbors, scene.filling,
                                     scene.visible, kept.in_set);
   kept.num_components = drop_small_components(scene.mesh, scene.neighbors, scene.filling,
@@ -115,11 +116,77 @@ KeptSet keep_above(const SetScene& scene, double threshold, const CarveOptions& 
   return kept;
 }
 
+KeptSet keep_above(const SetScene& scene, double threshold, const CarveOptions& options) {
+  std::vector<char> in_set(scene.mesh.num_hexes());
+  for (HexId h : scene.mesh.hexes.ids()) in_set[h.index()] = scene.filling.fraction[h] > threshold;
+  KeptSet kept = complete_set(scene, std::move(in_set), options);
+  kept.threshold = threshold;
+  return kept;
+}
+
 // Components and handles, of the solid or through it, that the set has too many or too few.
 long count_defects(const SetTopology& topology, const ExpectedTopology& expected) {
   return std::abs(static_cast<long>(topology.num_components) -
                   static_cast<long>(expected.num_components)) +
          std::abs(topology.euler_characteristic - expected.euler_characteristic) / 2;
+}
+
+// Lost hexes that share vertices, the largest such piece first.
+std::vector<std::vector<HexId>> group_lost(const HexMesh& mesh, const std::vector<HexId>& lost) {
+  BasicDisjointSets<std::int32_t> sets(mesh.num_verts());
+  for (HexId h : lost)
+    for (VertId v : mesh.hexes[h]) sets.unite(mesh.hexes[h][0].value(), v.value());
+  std::map<std::int32_t, std::vector<HexId>> pieces;
+  for (HexId h : lost) pieces[sets.find(mesh.hexes[h][0].value())].push_back(h);
+  std::vector<std::vector<HexId>> result;
+  for (auto& [root, piece] : pieces) result.push_back(std::move(piece));
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return result;
+}
+
+// The set with what touches the lost hexes kept (or dropped, where all is kept) from a quarter on.
+KeptSet keep_around(const SetScene& scene, std::span<const HexId> lost, const CarveOptions& options,
+                    const KeptSet& kept) {
+  constexpr float kLeast = 0.25f;
+  std::vector<char> in_set = kept.in_set;
+  for (HexId h : lost) {
+    const bool is_empty = !kept.in_set[h.index()];
+    for (VertId v : scene.mesh.hexes[h])
+      for (const HexCorner& corner : scene.vert_to_hex[v]) {
+        const float f = scene.filling.fraction[corner.hex];
+        if (is_empty ? f > kLeast : f < 1 - kLeast) in_set[corner.hex.index()] = is_empty ? 1 : 0;
+      }
+  }
+  KeptSet other = complete_set(scene, std::move(in_set), options);
+  other.threshold = kept.threshold;
+  other.repair.num_flips += kept.repair.num_flips;
+  return other;
+}
+
+// Fins and slits about as thick as a hex may be filled to just under one half, or emptied to just
+// over, along all of their length: the set has the right topology without them. Around lost places
+// less suffices. Kept as it was where that loses no less or does harm to the topology: first all
+// places together, then, if that did harm, the largest ones each by itself.
+void recover_lost(const SetScene& scene, const ExpectedTopology& expected,
+                  const CarveOptions& options, KeptSet& kept) {
+  constexpr std::size_t kMaxPieces = 12;
+  if (!expected.is_known) return;
+  std::size_t num_lost = find_lost_hexes(scene.mesh, scene.filling, kept.in_set).size();
+  const auto try_pieces = [&](std::span<const HexId> lost) {
+    KeptSet other = keep_around(scene, lost, options, kept);
+    if (count_defects(other.topology, expected) > count_defects(kept.topology, expected))
+      return false;
+    const std::size_t num_left = find_lost_hexes(scene.mesh, scene.filling, other.in_set).size();
+    if (num_left >= num_lost) return false;
+    num_lost = num_left;
+    kept = std::move(other);
+    return true;
+  };
+  const auto lost = find_lost_hexes(scene.mesh, scene.filling, kept.in_set);
+  if (lost.empty() || try_pieces(lost)) return;
+  const auto pieces = group_lost(scene.mesh, lost);
+  for (std::size_t i = 0; i < std::min(kMaxPieces, pieces.size()); ++i) try_pieces(pieces[i]);
 }
 
 // Walls about as thick as a hex are pierced wherever no hex is filled enough, and narrow gaps are
@@ -158,10 +225,12 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
   KeptSet kept = keep_above(scene, options.keep_fraction, options);
   const ExpectedTopology expected =
       options.expected ? *options.expected : find_expected_topology(surface);
+  recover_lost(scene, expected, options, kept);
   if (expected.is_known) mend_topology(scene, expected, options, kept);
 
   CarveResult result;
-  result.lost = find_lost_places(background, filling, kept.in_set);
+  for (HexId h : find_lost_hexes(background, filling, kept.in_set))
+    result.lost.push_back(filling.nearest[h]);
   if (expected.is_known && count_defects(kept.topology, expected) > 0)
     result.thin = find_thin_places(scene, kept.in_set);
   result.is_kept = std::move(kept.in_set);

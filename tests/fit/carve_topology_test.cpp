@@ -209,5 +209,51 @@ TEST(ApproachThreshold, DoesNotPeelPlatesFromTheirRim) {
   EXPECT_EQ(plate, before);
 }
 
+// What is left of a layer taken off is single hexes and rows, each as thin as a wall.
+TEST(ApproachThreshold, LeavesNoCrumbsOnAFlatBody) {
+  const HexMesh mesh = test::box_hex_mesh(12, 12, 8);
+  const VertToHex vert_to_hex(mesh);
+  const HexNeighbors neighbors = compute_hex_neighbors(mesh);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<float> uniform(0.2f, 0.45f);
+  for (bool is_solid : {true, false}) {  // a layer too many on a body, and one too few
+    HexFilling filling;
+    filling.edge.assign(mesh.num_hexes(), 1);
+    std::vector<char> body(mesh.num_hexes(), 0), layer(mesh.num_hexes(), 0);
+    for (HexId h : mesh.hexes.ids()) {
+      const Vec3 p = mesh.positions[mesh.hexes[h][0]];
+      const bool is_in = p.x > 0 && p.x < 11 && p.y > 0 && p.y < 11 && p.z > 0 && p.z < 4;
+      const bool is_on = is_in || (p.x > 1 && p.x < 10 && p.y > 2 && p.y < 9 && p.z == 4);
+      body[h.index()] = is_in == is_solid;
+      layer[h.index()] = is_on == is_solid;
+      const float f = is_in ? 1.0f : is_on ? uniform(rng) : 0.0f;
+      filling.fraction.push_back(is_solid ? f : 1 - f);
+    }
+    const SetScene scene{mesh, vert_to_hex, neighbors, filling, 0.1};
+    approach_threshold(scene, 0.5, layer);
+    std::size_t num_left = 0;
+    for (std::size_t i = 0; i < layer.size(); ++i) num_left += layer[i] != body[i];
+    EXPECT_EQ(num_left, 0u) << is_solid;
+  }
+}
+
+// A fin about as thick as a hex is filled to just under one half where its middle is between hexes.
+TEST(CarveTopology, RecoversFinsThatTheGridNearlyHolds) {
+  TriMesh body = clip_surface(0.6);  // two slabs, of which the upper one becomes the fin
+  for (Vec3& p : body.positions)
+    if (p.y > 1.3) p.y = 1.2 + 0.19;
+  for (double shift = 0; shift < 1; shift += 0.125) {
+    HexMesh grid = test::grid_around(bounding_box(body), 0.2);
+    for (Vec3& p : grid.positions) p.y += 0.2 * shift;
+    const CarveResult result = carve(grid, SurfaceTree(body), {}, {});
+    double reach = 0;
+    const HexMesh mesh = extract_hexes(grid, result.is_kept);
+    for (const auto& hex : mesh.hexes)
+      for (VertId v : hex)
+        if (mesh.positions[v].y > 1.1) reach = std::max(reach, mesh.positions[v].x);
+    EXPECT_GT(reach, 1.8) << shift;
+  }
+}
+
 }  // namespace
 }  // namespace hexwright
