@@ -190,7 +190,9 @@ EvenedGrid even_levels(const Grid& grid, const SurfaceTree& tree, const Complete
     const std::size_t num_before = current.grid.num_cells();
     current = deepen(current, base_level, finder);
     if (current.grid.num_cells() == num_before) continue;
-    if (static_cast<double>(count_object_leaves(current)) >= best.cost) break;
+    const std::size_t num_in_object = count_object_leaves(current);
+    if (num_in_object > options.max_object_cells) break;
+    if (static_cast<double>(num_in_object) >= best.cost) break;
     EvenedGrid evened =
         complete_and_price(current, finder, complete, options.transition_cost, context);
     evened.base_level = base_level;

@@ -123,6 +123,20 @@ TEST(EvenLevels, KeepsToTheBudget) {
   EXPECT_LE(even_levels(grid, plate, {}, tight, {}).completed.grid.num_cells(), plain);
 }
 
+TEST(EvenLevels, DoesNotGrowObjectsBeyondTheirShare) {
+  const SurfaceTree plate(box_surface({1, 1, 0.1}));
+  const Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});
+  const EvenedGrid free = even_levels(grid, plate, {}, {.transition_cost = 50}, {});
+  ASSERT_EQ(free.base_level, 5);
+  // About 32 x 32 x 4 cells at that level meet the plate or lie in it.
+  const EvenedGrid roomy =
+      even_levels(grid, plate, {}, {.transition_cost = 50, .max_object_cells = 8000}, {});
+  EXPECT_EQ(roomy.completed.grid.cells, free.completed.grid.cells);
+  const EvenedGrid tight =
+      even_levels(grid, plate, {}, {.transition_cost = 50, .max_object_cells = 1000}, {});
+  EXPECT_EQ(tight.base_level, 0);
+}
+
 TEST(EvenLevels, SameForAnyNumberOfThreads) {
   const SurfaceTree tree(test::unit_sphere_surface(3));
   const Grid grid = graded_grid(tree, 4, 5, {0, 1, 0});
