@@ -56,8 +56,11 @@ class CurveRouter {
   void choose_ends(CurveId c);
   VertId best_start(CurveId c, double arc) const;
   bool route(CurveId c);
-  std::vector<VertId> find_path(Search& search) const;
-  std::vector<VertId> trace(const Search& search, int state) const;
+  std::vector<VertId> find_simple_path(Search& search) const;
+  static std::vector<VertId> verts_of(const Search& search, const std::vector<int>& states);
+  static bool close_off_repeats(Search& search, const std::vector<int>& states);
+  std::vector<int> find_path(Search& search) const;
+  std::vector<int> trace(const Search& search, int state) const;
   bool may_enter(const Search& search, VertId from, VertId to) const;
   double step_cost(const Search& search, VertId from, VertId to) const;
   bool try_route(CurveId c);

@@ -14,6 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWindowSlack = 3;     // edge lengths beyond a layer's gates
 constexpr double kMaxDistanceSq = 4;   // a vertex farther than two edge lengths costs no more
 constexpr std::size_t kLeastLoop = 4;  // edges
+constexpr int kMaxRepeats = 8;         // searches for a way that passes no vertex twice
 
 struct QueueItem {
   double cost;
@@ -23,12 +24,15 @@ struct QueueItem {
   }
 };
 
-/// Drops a common stem of a loop's start and end; false when a vertex is still passed twice.
-bool make_simple(std::vector<VertId>& path, bool is_closed) {
-  while (is_closed && path.size() > 3 && path[1] == path[path.size() - 2]) {
+/// Drops a common stem of a loop's start and end.
+void drop_stem(std::vector<VertId>& path) {
+  while (path.size() > 3 && path[1] == path[path.size() - 2]) {
     path.erase(path.begin());
     path.pop_back();
   }
+}
+
+bool is_simple(const std::vector<VertId>& path) {
   std::vector<VertId> sorted(path.begin(), path.end() - 1);
   if (path.front() != path.back()) sorted.push_back(path.back());
   std::sort(sorted.begin(), sorted.end());
@@ -45,6 +49,7 @@ struct CurveRouter::Search {
   int num_layers;
   std::vector<double> cost;  // per state = layer * nodes + node
   std::vector<int> from;
+  std::vector<char> is_closed_off;  // states that an earlier way passed its vertex again in
 
   int num_nodes() const { return static_cast<int>(nodes.size()); }
   const TubeVert& node(int state) const {
@@ -103,7 +108,7 @@ double CurveRouter::step_cost(const Search& search, VertId from, VertId to) cons
 /// Fills the curve's path with the cheapest way; false (and no path) when there is none.
 bool CurveRouter::route(CurveId c) {
   const Route& r = routes_[c];
-  Search search{*this, c, r, in_.tubes[c], static_cast<int>(r.gates.size()) - 1, {}, {}};
+  Search search{*this, c, r, in_.tubes[c], static_cast<int>(r.gates.size()) - 1, {}, {}, {}};
   for (std::size_t i = 0; i < search.nodes.size(); ++i)
     tube_slot_[search.nodes[i].vert.index()] = static_cast<int>(i);
   const double length = in_.features.curves[c].length();
@@ -112,16 +117,62 @@ bool CurveRouter::route(CurveId c) {
       tube_slot_[end.index()] = search.num_nodes();
       search.nodes.push_back({end, 1.0, arc});
     }
-  std::vector<VertId> path = find_path(search);
+  std::vector<VertId> path = find_simple_path(search);
   for (const TubeVert& t : search.nodes) tube_slot_[t.vert.index()] = -1;
-  const bool is_closed = in_.features.curves[c].is_closed;
-  if (path.size() < 2 || !make_simple(path, is_closed)) return false;
+  if (path.size() < 2) return false;
   if (path.front() == path.back() && path.size() <= kLeastLoop) return false;
   routes_[c].path = std::move(path);
   return true;
 }
 
-std::vector<VertId> CurveRouter::find_path(Search& search) const {
+/// A way in layers may pass a vertex in two of them, where the curve comes back close to itself, as
+/// at the corner of a loop that ends in a narrow wedge. Then the later passage is closed off and
+/// the search done again; loops without a corner start elsewhere instead. Empty when there is none.
+std::vector<VertId> CurveRouter::find_simple_path(Search& search) const {
+  const auto num_states = static_cast<std::size_t>(search.num_nodes() * search.num_layers);
+  search.is_closed_off.assign(num_states, 0);
+  const bool is_closed = in_.features.curves[search.curve].is_closed;
+  for (int k = 0; k < kMaxRepeats; ++k) {
+    const std::vector<int> states = find_path(search);
+    std::vector<VertId> path = verts_of(search, states);
+    if (path.size() < 2) return {};
+    if (is_closed) drop_stem(path);
+    if (is_simple(path)) return path;
+    if (is_closed || !close_off_repeats(search, states)) return {};
+  }
+  return {};
+}
+
+/// Of a way's states; those that differ by their layer alone are one vertex.
+std::vector<VertId> CurveRouter::verts_of(const Search& search, const std::vector<int>& states) {
+  std::vector<VertId> path;
+  for (int state : states) {
+    const VertId v = search.node(state).vert;
+    if (path.empty() || path.back() != v) path.push_back(v);
+  }
+  return path;
+}
+
+/// Closes the states of a way whose vertex it has left before, but for its ends.
+bool CurveRouter::close_off_repeats(Search& search, const std::vector<int>& states) {
+  bool any = false;
+  std::vector<char> is_passed(static_cast<std::size_t>(search.num_nodes()), 0);
+  for (std::size_t i = 1; i + 1 < states.size(); ++i) {
+    const VertId v = search.node(states[i]).vert;
+    if (v == search.route.source || v == search.route.target) continue;
+    if (v == search.node(states[i - 1]).vert) continue;  // only the layer changed
+    char& passed = is_passed[static_cast<std::size_t>(states[i] % search.num_nodes())];
+    if (passed) {
+      search.is_closed_off[static_cast<std::size_t>(states[i])] = 1;
+      any = true;
+    }
+    passed = 1;
+  }
+  return any;
+}
+
+/// The states of the cheapest way, from the source on; empty when there is none.
+std::vector<int> CurveRouter::find_path(Search& search) const {
   const Route& r = search.route;
   const int n = search.num_nodes();
   search.cost.assign(static_cast<std::size_t>(n * search.num_layers), kInfinity);
@@ -129,7 +180,7 @@ std::vector<VertId> CurveRouter::find_path(Search& search) const {
   std::priority_queue<QueueItem, std::vector<QueueItem>, std::greater<>> queue;
   const auto reach = [&](int state, double cost, int from) {
     double& known = search.cost[static_cast<std::size_t>(state)];
-    if (cost >= known) return;
+    if (cost >= known || search.is_closed_off[static_cast<std::size_t>(state)]) return;
     known = cost;
     search.from[static_cast<std::size_t>(state)] = from;
     queue.push({cost, state});
@@ -158,14 +209,11 @@ std::vector<VertId> CurveRouter::find_path(Search& search) const {
   return {};
 }
 
-std::vector<VertId> CurveRouter::trace(const Search& search, int state) const {
-  std::vector<VertId> path;
-  for (; state >= 0; state = search.from[static_cast<std::size_t>(state)]) {
-    const VertId v = search.node(state).vert;
-    if (path.empty() || path.back() != v) path.push_back(v);
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
+std::vector<int> CurveRouter::trace(const Search& search, int state) const {
+  std::vector<int> states;
+  for (; state >= 0; state = search.from[static_cast<std::size_t>(state)]) states.push_back(state);
+  std::reverse(states.begin(), states.end());
+  return states;
 }
 
 }  // namespace hexwright::fitting

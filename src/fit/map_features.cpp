@@ -7,6 +7,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "fit/ban_short_curves.h"
+#include "fit/curve_convexity.h"
 #include "fit/curve_router.h"
 
 namespace hexwright::fitting {
@@ -76,18 +77,48 @@ void make_monotone(std::vector<double>& arcs) {
   }
 }
 
+/// How far from its curve, in edge lengths, the mesh may be where the surface forms a wedge: hexes
+/// filled by less than half are carved, so a wedge's tip is missing up to where it is an edge
+/// length thick, and rounding to whole hexes takes another.
+double wedge_reach(double angle, double most) {
+  return std::min(most, 1 + 0.5 / std::tan(0.5 * std::max(angle, 1e-3)));
+}
+
+/// Per curve.
+IdVector<CurveId, double> find_wedge_reaches(const TriMesh& surface, const FeatureGraph& features,
+                                             double most) {
+  IdVector<CurveId, double> reaches = compute_wedge_angles(surface, features);
+  for (double& reach : reaches) reach = wedge_reach(reach, most);
+  return reaches;
+}
+
+/// Per corner: that of its sharpest curve.
+std::vector<double> find_corner_reaches(const FeatureGraph& features, const CornerEnds& ends,
+                                        const IdVector<CurveId, double>& of_curves, double least) {
+  std::vector<double> reaches(features.corners.size(), least);
+  for (CurveId c : of_curves.ids())
+    for (int corner : ends.curve_to_corners[c]) {
+      if (corner < 0) continue;
+      double& reach = reaches[static_cast<std::size_t>(corner)];
+      reach = std::max(reach, of_curves[c]);
+    }
+  return reaches;
+}
+
 IdVector<CurveId, std::vector<TubeVert>> compute_tubes(const BoundaryQuads& boundary,
                                                        const VertReach& tree,
                                                        const TriMesh& surface,
                                                        const FeatureGraph& features,
-                                                       const FeatureMapOptions& options) {
+                                                       const FeatureMapOptions& options,
+                                                       const IdVector<CurveId, double>& wedge) {
   IdVector<CurveId, std::vector<TubeVert>> tubes(features.curves.size());
   parallel_for(
       tubes.size(),
       [&](std::size_t i) {
         const CurveId c(i);
         if (options.is_banned.empty() || !options.is_banned[c])
-          tubes[c] = compute_tube(boundary, tree, surface, features.curves[c], options.tube_reach);
+          tubes[c] = compute_tube(boundary, tree, surface, features.curves[c],
+                                  std::max(options.tube_reach, wedge[c]));
       },
       1);
   return tubes;
@@ -124,8 +155,11 @@ FeatureMapping finish(const CurveRouter& router, const RoutingProblem& in) {
 FeatureMapping map_features(const BoundaryQuads& boundary, const TriMesh& surface,
                             const FeatureGraph& features, const FeatureMapOptions& options) {
   const BoundaryGraph graph(boundary.positions.size(), boundary.quads);
-  const VertReach tree(boundary, graph.verts(), std::max(options.tube_reach, options.corner_reach));
-  const auto tubes = compute_tubes(boundary, tree, surface, features, options);
+  const auto wedge = find_wedge_reaches(surface, features, options.max_wedge_reach);
+  double farthest = std::max(options.tube_reach, options.corner_reach);
+  for (double reach : wedge) farthest = std::max(farthest, reach);
+  const VertReach tree(boundary, graph.verts(), farthest);
+  const auto tubes = compute_tubes(boundary, tree, surface, features, options, wedge);
   FeatureMapOptions narrowed = options;
   narrowed.is_banned.resize(features.curves.size(), 0);
   const auto is_short =
@@ -133,7 +167,8 @@ FeatureMapping map_features(const BoundaryQuads& boundary, const TriMesh& surfac
   const CornerEnds ends = find_corner_ends(features, narrowed.is_banned);
   const RoutingProblem problem{boundary, graph, surface, features, ends, tubes, narrowed};
   CurveRouter router(
-      problem, match_corners(boundary, graph, tree, surface, features, ends, options.corner_reach));
+      problem, match_corners(boundary, graph, tree, surface, features, ends,
+                             find_corner_reaches(features, ends, wedge, options.corner_reach)));
   router.run();
   FeatureMapping mapping = finish(router, problem);
   for (CurveId c : is_short.ids())

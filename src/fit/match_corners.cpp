@@ -35,7 +35,7 @@ double corner_cost(const BoundaryQuads& boundary, const BoundaryGraph& graph, Ve
 std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryGraph& graph,
                                   const VertReach& reach_tree, const TriMesh& surface,
                                   const FeatureGraph& features, const CornerEnds& ends,
-                                  double reach) {
+                                  const std::vector<double>& reach) {
   std::vector<std::size_t> order(features.corners.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -51,7 +51,7 @@ std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryG
     double best = std::numeric_limits<double>::infinity();
     for (VertId v : found) {
       if (is_taken[v.index()]) continue;
-      if (distance(boundary.positions[v], p) > reach * boundary.edge_length[v]) continue;
+      if (distance(boundary.positions[v], p) > reach[corner] * boundary.edge_length[v]) continue;
       const double cost = corner_cost(boundary, graph, v, p, ends.degree[corner]);
       if (cost < best || (cost == best && v < result[corner])) {
         best = cost;

@@ -22,11 +22,11 @@ CornerEnds find_corner_ends(const FeatureGraph& features, const IdVector<CurveId
 double corner_cost(const BoundaryQuads& boundary, const BoundaryGraph& graph, VertId vert,
                    const Vec3& corner, int degree);
 
-/// The best free vertex within `reach` edge lengths per corner, those of highest degree first;
+/// The best free vertex within `reach[k]` edge lengths of corner k, those of highest degree first;
 /// invalid where there is none or the degree is 0.
 std::vector<VertId> match_corners(const BoundaryQuads& boundary, const BoundaryGraph& graph,
                                   const VertReach& reach_tree, const TriMesh& surface,
                                   const FeatureGraph& features, const CornerEnds& ends,
-                                  double reach);
+                                  const std::vector<double>& reach);
 
 }  // namespace hexwright::fitting

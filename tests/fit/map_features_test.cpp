@@ -1,6 +1,7 @@
 // Feature mapping: complete on plain shapes, disjoint and connected on crowded ones.
 #include "fit/map_features.h"
 
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -148,6 +149,48 @@ TEST(MapFeatures, MapsTheLoopsOfACylinder) {
     const CurvePath& path = m.mapping.curves[c];
     EXPECT_NEAR(path.arcs.back() - path.arcs.front(), m.features.curves[c].length(), 1e-9);
   }
+}
+
+/// A prism along y over a drop: a round nose about `nose` and two straight sides to a tip.
+TriMesh drop_surface(double angle, const Vec3& nose, double radius, double width) {
+  const double half = 0.5 * angle;
+  std::vector<Vec3> outline{nose + Vec3{radius / std::sin(half), 0, 0}};
+  for (int i = 0; i <= 24; ++i) {  // from one point of contact around the nose to the other
+    const double a = std::numbers::pi / 2 - half + (std::numbers::pi + angle) * i / 24;
+    outline.push_back(nose + Vec3{std::cos(a), 0, std::sin(a)} * radius);
+  }
+  const auto n = static_cast<int>(outline.size());
+  TriMesh t;
+  for (double y : {0.0, width})
+    for (const Vec3& p : outline) t.positions.push_back({p.x, nose.y + y, p.z});
+  const auto add = [&](int a, int b, int c) {
+    t.tris.push_back({VertId(a), VertId(b), VertId(c)});
+  };
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    add(i, j + n, j);
+    add(i, i + n, j + n);
+  }
+  for (int i = 1; i + 1 < n; ++i) {
+    add(0, i, i + 1);
+    add(n, n + i + 1, n + i);
+  }
+  return t;
+}
+
+// The grid loses a wedge's tip over several hexes, and the loops around its ends come back to their
+// corner beside themselves.
+TEST(MapFeatures, FollowsTheEdgesOfANarrowWedge) {
+  for (double degrees : {16.0, 20.0, 26.0, 40.0})
+    for (double lift : {0.0, 0.21, 0.5, 0.77}) {
+      const TriMesh drop =
+          drop_surface(degrees * std::numbers::pi / 180, {5.3, 3.2, 15 + lift}, 3, 8.1);
+      const SurfaceTree tree(drop);
+      const HexMesh mesh = test::voxels(30, [&](const Vec3& p) { return tree.is_inside(p); });
+      const Mapped m = map_all(test::boundary_of(mesh), drop);
+      ASSERT_EQ(m.features.curves.size(), 3u);
+      EXPECT_EQ(m.num_mapped, 3u) << degrees << " " << lift;
+    }
 }
 
 /// The boundary of a 12 x 12 x 12 grid cube as a surface, with user lines on its top at given y.
