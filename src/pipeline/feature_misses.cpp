@@ -10,7 +10,7 @@ namespace hexwright {
 
 /// A chord of length c departs from a circle of radius r by c^2 / 8r.
 double sufficient_cell_size(const CurveRecovery& curve, double tolerance) {
-  const double by_length = curve.length / kCellsPerCurve;
+  const double by_length = std::max(curve.length / kCellsPerCurve, kLeastFeatureCell * tolerance);
   if (!(curve.turn > 0)) return by_length;
   const double radius = curve.length / curve.turn;
   return std::min(by_length, std::sqrt(8 * radius * tolerance));

@@ -13,6 +13,10 @@ constexpr double kFollowedShare = 0.5;
 /// A curve needs so many cells along it to get a path of edges.
 constexpr double kCellsPerCurve = 8;
 
+/// No curve needs cells below this multiple of the tolerance for features: what is shorter or
+/// nearer to another than that can hardly be told from it.
+constexpr double kLeastFeatureCell = 2;
+
 /// Cells that suffice for a curve to be followed: a path's worth along it, and edges that depart
 /// from its mean curvature by less than `tolerance` (a length).
 double sufficient_cell_size(const CurveRecovery& curve, double tolerance);

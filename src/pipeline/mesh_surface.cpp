@@ -131,7 +131,8 @@ std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const
   const std::vector<char> marks = mark_misses(input, round);
   record.num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
   if (record.num_marked == 0) return {};
-  return split_cells(round.grid, marks);
+  return split_to_sizes(split_cells(round.grid, marks), round.crowded_features,
+                        deepest_level(input.options));
 }
 
 /// Fits, measures, splits leaves that hold a miss, and repeats while that is called for and
@@ -290,7 +291,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   if (expected.is_known) options.judge.distance.solid_only = false;
 
   // Grid, hexes, fit; again where the fit missed.
-  const RoundInput input{tree, options, expected, context};
+  const RoundInput input{tree, options, expected, context, &features};
   CompleteResult completed = complete_within_budget(input, features, result);
   take_round(refine_where_missed(input, std::move(completed), result), result);
 

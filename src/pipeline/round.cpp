@@ -53,10 +53,6 @@ double feature_share(const Round& round) {
   return round.verdict.features ? round.verdict.features->length_share : 1;
 }
 
-int deepest_level(const MeshOptions& options) {
-  return std::min(options.sizing.max_level + options.loop_extra_levels, kMaxGridLevel);
-}
-
 /// Whether too little of the curves is followed.
 bool misses_features(const RoundInput& input, const Round& round) {
   const MeshOptions& options = input.options;
@@ -69,14 +65,21 @@ bool misses_features(const RoundInput& input, const Round& round) {
 /// next one will follow by itself.
 constexpr double kMappedShare = 0.9;
 
-/// Where the curves call for finer cells. In unit coordinates shares of the diagonal are lengths.
-std::vector<Vec3> refinable_features(const RoundInput& input, const Round& round) {
-  if (!misses_features(input, round)) return {};
+/// Where the curves call for finer cells.
+void find_refinable_features(const RoundInput& input, Round& round) {
+  if (!misses_features(input, round)) return;
+  const FeatureRecovery& recovery = *round.verdict.features;
   const bool is_mapped =
-      round.fit.report.curve_length_mapped >= kMappedShare * round.verdict.features->total_length;
-  if (!is_mapped && !is_within_gate(input, round)) return {};
-  return find_refinable_features(round.grid, *round.verdict.features,
-                                 input.options.judge.edge_tolerance, deepest_level(input.options));
+      round.fit.report.curve_length_mapped >= kMappedShare * recovery.total_length;
+  if (!is_mapped && !is_within_gate(input, round)) return;
+  const double tolerance = input.options.judge.edge_tolerance * input.tree.box().diagonal();
+  round.refinable_features =
+      find_refinable_features(round.grid, recovery, tolerance, deepest_level(input.options));
+  if (!input.features) return;
+  round.crowded_features = find_crowded_misses(round.grid, input.tree.surface(), *input.features,
+                                               recovery, kLeastFeatureCell * tolerance);
+  for (const SizedPlace& place : round.crowded_features)
+    round.refinable_features.push_back(place.position);
 }
 
 double max_distance(const Round& round) {
@@ -93,6 +96,10 @@ bool misses_mean(const RoundInput& input, const Round& round) {
 }
 
 }  // namespace
+
+int deepest_level(const MeshOptions& options) {
+  return std::min(options.sizing.max_level + options.loop_extra_levels, kMaxGridLevel);
+}
 
 /// Stages log their own counts, so that a report tells which of them made or lost hexes.
 Round run_round(const RoundInput& input, CompleteResult completed) {
@@ -124,7 +131,7 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   else
     round.verdict.failures.push_back(
         "nothing of the object was kept: its parts are thinner than the grid's cells");
-  round.refinable_features = refinable_features(input, round);
+  find_refinable_features(input, round);
   round.record = make_record(round, clock.seconds());
   return round;
 }
@@ -195,8 +202,11 @@ std::optional<double> scale_for_mean(const RoundInput& input, const Round& round
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   std::vector<Vec3> points;
   if (round.verdict.distance) points = round.verdict.distance->hot;
-  const auto& lost = round.fit.report.carve.lost;
-  points.insert(points.end(), lost.begin(), lost.end());
+  // Tips of wedges are lost on any grid; with the right topology only their distance counts.
+  if (!input.expected.is_known || !has_expected_topology(input, round)) {
+    const auto& lost = round.fit.report.carve.lost;
+    points.insert(points.end(), lost.begin(), lost.end());
+  }
   // Two walls of a gap fitted onto the same side of it: finer cells tell them apart.
   for (VertId v : round.verdict.topology.hanging_verts)
     points.push_back(round.fit.mesh.positions[v]);

@@ -6,6 +6,8 @@
 #include "hexwright/geometry/expected_topology.h"
 #include "hexwright/pipeline/mesh_surface.h"
 
+#include "pipeline/crowded_features.h"
+
 namespace hexwright {
 
 /// The gate of distance, as a multiple of the tolerance; see mesh_surface.h.
@@ -23,6 +25,8 @@ struct RoundInput {
   const MeshOptions& options;
   const ExpectedTopology& expected;
   const Context& context;
+  /// The curves of the verdicts; without them none is taken to be crowded.
+  const FeatureGraph* features = nullptr;
 };
 
 struct Round {
@@ -33,6 +37,8 @@ struct Round {
   Verdict verdict;
   /// Places on the features that finer cells can help to follow; none when enough is followed.
   std::vector<Vec3> refinable_features;
+  /// Those among them where curves crowd, with the cells that tell them apart.
+  std::vector<SizedPlace> crowded_features;
   std::vector<StageRecord> stages;
   RoundRecord record;
 };
@@ -64,6 +70,9 @@ bool is_better(const RoundInput& input, const Round& a, const Round& b);
 /// How much smaller all cells must become for the mean distance to reach its goal, when nothing
 /// else is missed that this would not mend.
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round);
+
+/// The loop's leaves are no deeper than this.
+int deepest_level(const MeshOptions& options);
 
 /// Leaves of the completed grid that hold points the fit missed, of the surface or of its features,
 /// and where the mesh's boundary touches itself; when there are none but the topology is not the

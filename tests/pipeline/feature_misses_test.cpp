@@ -65,6 +65,11 @@ TEST(FeatureMisses, ACurveThatIsFollowedMayBeRefinedFurther) {
             std::vector<Vec3>{});
 }
 
+TEST(FeatureMisses, NoCurveAsksForCellsFarBelowTheTolerance) {
+  const double tolerance = 0.001;
+  EXPECT_EQ(sufficient_cell_size({0.002, 0, 0}, tolerance), kLeastFeatureCell * tolerance);
+}
+
 TEST(FeatureMisses, CornersAndPlacesOutsideTheGrid) {
   const Grid grid = two_level_grid();
   FeatureRecovery features;

@@ -129,6 +129,14 @@ TEST_F(RoundTest, ThinPlacesAreRefinedOnlyForTopologyAndWhenNothingElseIs) {
   torus.fit.report.carve.lost.clear();
   torus.verdict.topology.boundary_euler_characteristic = 2;
   EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 0}));
+  // The tip of a wedge is lost on any grid: with the right topology only its distance counts.
+  torus.fit.report.carve.lost = {{3, 1, 1}};
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 0}));
+  torus.verdict.distance->hot = {{1, 1, 1}};
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{1, 0}));
+  expected_.is_known = false;
+  torus.verdict.distance->hot.clear();
+  EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 1}));
 }
 
 TEST_F(RoundTest, RefinesWhereTheBoundaryTouchesItself) {
