@@ -42,7 +42,7 @@ struct MeshOptions {
   /// Budget of the loop: no further round once the background meshes of all rounds together would
   /// exceed it; a quarter of it for open and overlapping surfaces. Counts, not seconds, so that
   /// results do not depend on the machine.
-  std::size_t max_loop_hexes = 1'000'000;
+  std::size_t max_loop_hexes = 700'000;
 };
 
 /// Sets the options of a single pass: a stricter a-priori criterion instead of the loop.
