@@ -102,7 +102,8 @@ TEST(MatchCorners, AgreesWithAScanOverAllVertices) {
       curves.push_back(curve_between(i, static_cast<int>((i + 1 + rng() % 7) % 8), 1));
     const FeatureGraph features = graph_of(curves);
     const CornerEnds ends = find_corner_ends(features, {});
-    const auto got = match_corners(quads, graph, tree, surface, features, ends, reach);
+    const auto got = match_corners(quads, graph, tree, surface, features, ends,
+                                   std::vector<double>(features.corners.size(), reach));
     std::vector<char> is_taken(graph.num_verts(), 0);
     for (int degree = 16; degree > 0; --degree)
       for (std::size_t corner = 0; corner < features.corners.size(); ++corner) {
