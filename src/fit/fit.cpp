@@ -209,8 +209,9 @@ class Fitter {
     Attempt a{scaffold, {}, {}, {}};
     clock_.run("map features", 0.4, [&] { map_curves(map_options, a); });
     if (is_selective()) {
-      clock_.run("sheets", 0.42, [&] { pad(carved, a); });
-      clock_.run("fit1", 0.46, [&] { approach(a.state, kPadded, true); });
+      bool is_new = false;
+      clock_.run("sheets", 0.42, [&] { is_new = pad(carved, a); });
+      if (is_new) clock_.run("fit1", 0.46, [&] { approach(a.state, kPadded, true); });
     }
     if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
     clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
@@ -235,11 +236,14 @@ class Fitter {
     a.marks = std::move(attached.marks);
   }
 
-  // Back to the carved mesh, with sheets where the mapped curves need them.
-  void pad(const FitState& carved, Attempt& a) {
+  // Back to the carved mesh, with sheets where the mapped curves need them. False when these are no
+  // fewer hexes than the layer everywhere: then the scaffold stays, which is fitted already.
+  bool pad(const FitState& carved, Attempt& a) {
     SelectivePadding padded = pad_selectively(carved, a.state, a.marks, target(), context_);
+    if (padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes()) return false;
     a.state = std::move(padded.state);
     a.marks = std::move(padded.marks);
+    return true;
   }
 
   // Onto the curves, with layers where the mesh needs them to follow the curves.
