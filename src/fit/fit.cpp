@@ -236,11 +236,13 @@ class Fitter {
     a.marks = std::move(attached.marks);
   }
 
-  // Back to the carved mesh, with sheets where the mapped curves need them. False when these are no
-  // fewer hexes than the layer everywhere: then the scaffold stays, which is fitted already.
+  // Back to the carved mesh, with sheets where the mapped curves need them. False when that is one
+  // layer under everything, as on shapes whose curves separate nothing: that is the scaffold, which
+  // is fitted already.
   bool pad(const FitState& carved, Attempt& a) {
     SelectivePadding padded = pad_selectively(carved, a.state, a.marks, target(), context_);
-    if (padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes()) return false;
+    if (padded.report.num_groups == 1 && padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes())
+      return false;
     a.state = std::move(padded.state);
     a.marks = std::move(padded.marks);
     return true;
