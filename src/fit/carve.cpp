@@ -56,20 +56,22 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
 }
 
 // Hexes with the surface near their centres but no boundary of the kept set at any vertex: the part
-// or gap there is thinner than the grid.
-std::vector<HexId> find_lost_hexes(const HexMesh& mesh, const HexFilling& filling,
-                                   const std::vector<char>& is_kept) {
-  IdVector<VertId, char> sides(mesh.num_verts(),
-                               0);  // bit 0: a dropped hex here, bit 1: a kept one
+// or gap there is thinner than the grid. Beyond the background nothing is kept.
+std::vector<HexId> find_lost_hexes(const SetScene& scene, const std::vector<char>& is_kept) {
+  constexpr char kDropped = 1, kKept = 2;
+  const HexMesh& mesh = scene.mesh;
+  IdVector<VertId, char> sides(mesh.num_verts(), 0);
+  const auto add = [&](VertId v, char side) { sides[v] = static_cast<char>(sides[v] | side); };
   for (HexId h : mesh.hexes.ids())
-    for (VertId v : mesh.hexes[h])
-      sides[v] = static_cast<char>(sides[v] | (is_kept[h.index()] ? 2 : 1));
+    for (VertId v : mesh.hexes[h]) add(v, is_kept[h.index()] ? kKept : kDropped);
+  for (const HexFace& face : scene.neighbors.boundary)
+    for (VertId v : face_verts(mesh, face)) add(v, kDropped);
   std::vector<HexId> lost;
   for (HexId h : mesh.hexes.ids()) {
-    if (!filling.is_near[h]) continue;
+    if (!scene.filling.is_near[h]) continue;
     const auto& verts = mesh.hexes[h];
-    const bool at_boundary =
-        std::any_of(verts.begin(), verts.end(), [&](VertId v) { return sides[v] == 3; });
+    const bool at_boundary = std::any_of(verts.begin(), verts.end(),
+                                         [&](VertId v) { return sides[v] == (kKept | kDropped); });
     if (!at_boundary) lost.push_back(h);
   }
   return lost;
@@ -172,18 +174,18 @@ void recover_lost(const SetScene& scene, const ExpectedTopology& expected,
                   const CarveOptions& options, KeptSet& kept) {
   constexpr std::size_t kMaxPieces = 12;
   if (!expected.is_known) return;
-  std::size_t num_lost = find_lost_hexes(scene.mesh, scene.filling, kept.in_set).size();
+  std::size_t num_lost = find_lost_hexes(scene, kept.in_set).size();
   const auto try_pieces = [&](std::span<const HexId> lost) {
     KeptSet other = keep_around(scene, lost, options, kept);
     if (count_defects(other.topology, expected) > count_defects(kept.topology, expected))
       return false;
-    const std::size_t num_left = find_lost_hexes(scene.mesh, scene.filling, other.in_set).size();
+    const std::size_t num_left = find_lost_hexes(scene, other.in_set).size();
     if (num_left >= num_lost) return false;
     num_lost = num_left;
     kept = std::move(other);
     return true;
   };
-  const auto lost = find_lost_hexes(scene.mesh, scene.filling, kept.in_set);
+  const auto lost = find_lost_hexes(scene, kept.in_set);
   if (lost.empty() || try_pieces(lost)) return;
   const auto pieces = group_lost(scene.mesh, lost);
   for (std::size_t i = 0; i < std::min(kMaxPieces, pieces.size()); ++i) try_pieces(pieces[i]);
@@ -229,8 +231,7 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
   if (expected.is_known) mend_topology(scene, expected, options, kept);
 
   CarveResult result;
-  for (HexId h : find_lost_hexes(background, filling, kept.in_set))
-    result.lost.push_back(filling.nearest[h]);
+  for (HexId h : find_lost_hexes(scene, kept.in_set)) result.lost.push_back(filling.nearest[h]);
   if (expected.is_known && count_defects(kept.topology, expected) > 0)
     result.thin = find_thin_places(scene, kept.in_set);
   result.is_kept = std::move(kept.in_set);

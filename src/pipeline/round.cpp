@@ -171,10 +171,11 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
 /// Lexicographic: what comes first in the array decides first; the numbers below only break ties.
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
   const auto rank = [&](const Round& r) {
-    // A mesh beyond the gate is no result, however well shaped: distance to it goes before quality.
+    // A mesh beyond the gate is no result, however well shaped: distance to it goes before the
+    // rest.
     return std::array<bool, 7>{r.verdict.is_valid(),
-                               has_expected_topology(input, r),
                                max_distance(r) <= kGateFactor * input.options.sizing.tolerance,
+                               has_expected_topology(input, r),
                                max_distance(r) <= input.options.sizing.tolerance,
                                r.verdict.quality.min_scaled_jacobian >= input.options.min_quality,
                                !misses_features(input, r),

@@ -60,8 +60,8 @@ bool is_within_gate(const RoundInput& input, const Round& round);
 /// Whether a next grid of so many cells would break kMaxGrowth.
 bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells);
 
-/// Whether `a` is the better result: valid before invalid, right topology before wrong, within the
-/// gate before beyond, within the tolerance before beyond, then quality, then features that are
+/// Whether `a` is the better result: valid before invalid, within the gate before beyond, right
+/// topology before wrong, within the tolerance before beyond, then quality, then features that are
 /// followed closely, then the mean distance within its share. Among equals the nearer one; when
 /// both are near enough, the one that follows more of its features; when both follow enough, the
 /// one nearer in the mean, and when both are near enough in that, the smaller one.

@@ -99,12 +99,14 @@ TEST_F(RoundTest, ScalingWaitsForWhatItDoesNotMend) {
   EXPECT_FALSE(scale_for_mean(input, coarse));
 }
 
-TEST_F(RoundTest, TopologyGoesBeforeDistance) {
+TEST_F(RoundTest, WithinTheGateTopologyGoesBeforeDistance) {
   expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
-  Round sphere = round(9, 0.1), torus = round(0.1, 0.9);
+  Round sphere = round(1.9, 0.1), torus = round(0.1, 0.9);
   for (Round* r : {&sphere, &torus}) r->verdict.topology.num_boundary_components = 1;
   sphere.verdict.topology.boundary_euler_characteristic = 2;
   expect_better(sphere, torus);
+  sphere.verdict.distance->max_to_mesh = 2.1 * options_.sizing.tolerance;
+  expect_better(torus, sphere);
 }
 
 TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
