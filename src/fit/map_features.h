@@ -15,8 +15,8 @@
 namespace hexwright::fitting {
 
 struct FeatureMapOptions {
-  double corner_reach = 2.5;    ///< a corner's vertex is at most so many edge lengths away
-  double tube_reach = 2.2;      ///< so is every vertex of a path from its curve
+  double corner_reach = 2.5;  ///< a corner's vertex is at most so many edge lengths away
+  double tube_reach = 2.2;    ///< so is every vertex of a path from its curve
   /// Along wedges both are raised by what the carve leaves of them, see wedge_reach(); to this.
   double max_wedge_reach = 6;
   double distance_weight = 10;  ///< cost factor of squared distance (in edge lengths) to the curve

@@ -258,7 +258,7 @@ TEST(CarveTopology, RecoversFinsThatTheGridNearlyHolds) {
 // Where all hexes are kept, the background's boundary is the set's: nothing is lost there.
 TEST(CarveTopology, LosesNothingWhereTheBackgroundEnds) {
   TriMesh cube = test::unit_cube_surface();
-  for (Vec3& p : cube.positions) p = Vec3{0.4, 0.4, 0.4} + 4.2 * p;
+  for (Vec3& p : cube.positions) p = Vec3{0.15, 0.15, 0.15} + 4.7 * p;
   const CarveResult result = carve(test::box_hex_mesh(5, 5, 5), SurfaceTree(cube), {}, {});
   EXPECT_TRUE(result.lost.empty());
   EXPECT_EQ(std::count(result.is_kept.begin(), result.is_kept.end(), 1), 125);

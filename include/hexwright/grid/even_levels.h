@@ -16,7 +16,8 @@ struct EvenOptions {
   /// quality lost there; 0 = the grid is only completed.
   double transition_cost = 5;
   std::size_t max_cells = 2'000'000;  ///< evened grids that are larger once completed are out
-  /// Evened grids with more cells in the object are out: a large mesh is not doubled for its shapes.
+  /// Evened grids with more cells in the object are out: a large mesh is not doubled for its
+  /// shapes.
   std::size_t max_object_cells = 75'000;
 };
 
