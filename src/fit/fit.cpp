@@ -34,13 +34,14 @@ using namespace fitting;
 // sweeps at each. A scaffold that curves are mapped on need not arrive as closely as one that
 // stays, and the padded mesh after it has fit2 and fit3 to come; more sweeps there change the
 // distances little and cost quality, because they press the staircase flat before its layers may
-// share the strain.
+// share the strain. Models without curves settle here, and in the closer fit after it, what their
+// least will be.
 struct Approach {
   int num_weights, sweeps_per_weight;
 };
-constexpr Approach kFinal = {5, 2}, kScaffold = {4, 2}, kPadded = {3, 1};
-// The same for the last part of the way, where smooth models settle what their least will be.
+constexpr Approach kFinal = {8, 2}, kScaffold = {4, 2}, kPadded = {3, 1};
 constexpr Approach kClose = {4, 2}, kClosePadded = {5, 1};
+constexpr RefitOptions kThoroughRefit = {4, 0.02, 3};  // of models without curves
 constexpr int kSmoothRounds = 2;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
@@ -215,7 +216,9 @@ class Fitter {
     }
     if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
     clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
-    clock_.run("refit", 0.7, [&] { refit_stuck(a.state, target(), {}, context_); });
+    clock_.run("refit", 0.7, [&] {
+      refit_stuck(a.state, target(), is_selective() ? RefitOptions{} : kThoroughRefit, context_);
+    });
     if (is_selective()) {
       clock_.run("pillows", 0.8,
                  [&] { pillow_failed_quads(a.state, a.marks, target(), {}, context_); });
