@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/fit/improve.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/relax/improve.h"
 
 #include "commands.h"
 #include "options.h"

@@ -11,17 +11,26 @@ ALLOWED = {
     "base": set(),
     "mesh": {"base"},
     "geometry": {"base", "mesh"},
-    "grid": {"base", "mesh", "geometry"},
-    "dual": {"base", "mesh", "grid"},
+    "labelling": {"base"},
+    "grid": {"base", "mesh", "geometry", "labelling"},
     "quality": {"base", "mesh", "geometry"},
-    "fit": {"base", "mesh", "geometry", "quality"},
-    "polycube": {"base", "mesh", "geometry", "grid", "dual", "fit", "quality"},
+    "relax": {"base", "mesh", "geometry", "quality"},
+    "dual": {"base", "mesh", "geometry", "grid", "quality", "relax"},
+    "fit": {"base", "mesh", "geometry", "quality", "relax"},
+    "polycube": {"base", "mesh", "geometry", "grid", "dual", "fit", "quality", "relax"},
     "io": {"base", "mesh", "grid"},
     "render": {"base", "mesh", "geometry", "quality", "io"},
-    "pipeline": {"base", "mesh", "geometry", "grid", "dual", "quality", "fit", "polycube", "io", "render"},
+    "pipeline": {"base", "mesh", "geometry", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "render"},
+}
+# Rooms inside a module, lowest first: a room includes itself and those before it.
+ROOMS = {
+    "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
+    "io": ["text", "surface", "mesh", "grid"],
+    "fit": ["carve", "curves", "sheets"],
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.
 FORBIDDEN_IN_PUBLIC = re.compile(r"#include <(Eigen|tbb|oneapi|embree3|iostream|nlohmann|fmt|Highs|CLI)")
+ROOM_INCLUDE = re.compile(r'#include "([a-z]+)/([a-z]+)/[\w./]+"')
 INCLUDE = re.compile(r'#include [<"](?:hexwright/)?([a-z]+)/[\w./]+[>"]')
 
 
@@ -36,8 +45,21 @@ def violations(root: Path):
                     where = f"{path.relative_to(root)}:{number}"
                     if match and match[1] in ALLOWED and match[1] not in allowed | {module}:
                         yield f"{where}: module {module} may not include {match[1]}"
+                    yield from room_violations(path.relative_to(root), line, where)
                     if folder.startswith("include") and FORBIDDEN_IN_PUBLIC.match(line):
                         yield f"{where}: a public header may not include a heavy third party"
+
+
+def room_violations(path: Path, line: str, where: str):
+    """Between the rooms of one module; files beside the rooms (its driver) include all of them."""
+    match = ROOM_INCLUDE.match(line)
+    if not match or len(path.parts) < 4 or path.parts[1] != match[1] or match[1] not in ROOMS:
+        return
+    order = ROOMS[match[1]]
+    if path.parts[2] not in order:
+        yield f"{where}: room {path.parts[2]} is not in the list of {match[1]}'s rooms"
+    elif match[2] not in order or order.index(match[2]) > order.index(path.parts[2]):
+        yield f"{where}: room {path.parts[2]} may not include {match[2]}"
 
 
 def main() -> int:

@@ -4,9 +4,9 @@
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/fit/fit.h"
-#include "hexwright/mesh/vertex_newton.h"
 
 #include "fit/fit_helpers.h"
+#include "relax/vertex_newton.h"
 
 namespace {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "hexwright/base/parallel.h"
-#include "hexwright/mesh/vertex_newton.h"
 
 #include "dual/quality_of_hex.h"
+#include "relax/vertex_newton.h"
 
 namespace hexwright::dual {
 

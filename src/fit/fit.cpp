@@ -13,17 +13,17 @@
 #include "hexwright/base/assert.h"
 #include "hexwright/quality/hex_quality.h"
 
-#include "fit/balance.h"
-#include "fit/feature_layers.h"
-#include "fit/finish.h"
-#include "fit/judge_curves.h"
-#include "fit/keep_side.h"
-#include "fit/pad_boundary.h"
+#include "fit/carve/keep_side.h"
+#include "fit/curves/judge_curves.h"
 #include "fit/pass_clock.h"
-#include "fit/pillow_failed.h"
-#include "fit/selective_padding.h"
-#include "fit/sweep.h"
-#include "fit/targets.h"
+#include "fit/sheets/feature_layers.h"
+#include "fit/sheets/pad_boundary.h"
+#include "fit/sheets/pillow_failed.h"
+#include "fit/sheets/selective_padding.h"
+#include "relax/balance.h"
+#include "relax/finish.h"
+#include "relax/sweep.h"
+#include "relax/targets.h"
 
 namespace hexwright {
 namespace {

@@ -6,7 +6,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/similarity.h"
 
-#include "io/grid_file.h"
+#include "io/grid/grid_file.h"
 #include "pipeline/stage_log.h"
 
 namespace hexwright {

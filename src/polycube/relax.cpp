@@ -13,12 +13,12 @@
 
 #include "hexwright/quality/hex_quality.h"
 
-#include "fit/finish.h"
-#include "fit/fit_state.h"
-#include "fit/pad_boundary.h"
-#include "fit/sweep.h"
-#include "fit/targets.h"
-#include "fit/untangle.h"
+#include "fit/sheets/pad_boundary.h"
+#include "relax/finish.h"
+#include "relax/fit_state.h"
+#include "relax/sweep.h"
+#include "relax/targets.h"
+#include "relax/untangle.h"
 
 namespace hexwright::polycube {
 namespace {

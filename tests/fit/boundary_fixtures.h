@@ -7,9 +7,9 @@
 #include "hexwright/fit/carve.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
-#include "fit/boundary_quads.h"
-#include "fit/map_features.h"
+#include "fit/curves/map_features.h"
 #include "helpers.h"
+#include "relax/boundary_quads.h"
 #include "solids.h"
 
 namespace hexwright::test {

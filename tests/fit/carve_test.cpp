@@ -5,10 +5,10 @@
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/hex_topology.h"
 
-#include "fit/carve_classify.h"
-#include "fit/carve_repair.h"
-#include "fit/set_check.h"
-#include "fit/visible_normal.h"
+#include "fit/carve/carve_classify.h"
+#include "fit/carve/carve_repair.h"
+#include "fit/carve/set_check.h"
+#include "fit/carve/visible_normal.h"
 #include "fit_helpers.h"
 
 namespace hexwright {

@@ -7,9 +7,9 @@
 #include "hexwright/fit/carve.h"
 #include "hexwright/quality/hex_topology.h"
 
-#include "fit/approach_set.h"
-#include "fit/carve_repair.h"
-#include "fit/set_topology.h"
+#include "fit/carve/approach_set.h"
+#include "fit/carve/carve_repair.h"
+#include "fit/carve/set_topology.h"
 #include "fit_helpers.h"
 
 namespace hexwright {

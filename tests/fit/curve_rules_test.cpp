@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "boundary_fixtures.h"
-#include "fit/ban_short_curves.h"
-#include "fit/judge_curves.h"
-#include "fit/match_corners.h"
+#include "fit/curves/ban_short_curves.h"
+#include "fit/curves/judge_curves.h"
+#include "fit/curves/match_corners.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -1,10 +1,10 @@
 // Pillows under squeezed quads keep the mesh valid and the marks consistent.
-#include "fit/feature_layers.h"
+#include "fit/sheets/feature_layers.h"
 
 #include "boundary_fixtures.h"
-#include "fit/pad_boundary.h"
-#include "fit/pillow_failed.h"
-#include "fit/sweep.h"
+#include "fit/sheets/pad_boundary.h"
+#include "fit/sheets/pillow_failed.h"
+#include "relax/sweep.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -7,11 +7,11 @@
 #include "hexwright/quality/hex_topology.h"
 #include "hexwright/quality/surface_distance.h"
 
-#include "fit/finish.h"
-#include "fit/pad_boundary.h"
-#include "fit/sweep.h"
-#include "fit/targets.h"
+#include "fit/sheets/pad_boundary.h"
 #include "fit_helpers.h"
+#include "relax/finish.h"
+#include "relax/sweep.h"
+#include "relax/targets.h"
 
 namespace hexwright {
 namespace {

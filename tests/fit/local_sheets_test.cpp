@@ -1,15 +1,15 @@
 // Sheets around single hexes and rows of them, in place of layers under whole groups.
-#include "fit/local_sheets.h"
+#include "fit/sheets/local_sheets.h"
 
 #include <random>
 
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
-#include "fit/extrude_regions.h"
-#include "fit/make_visible.h"
-#include "fit/set_check.h"
-#include "fit/visible_normal.h"
+#include "fit/carve/set_check.h"
+#include "fit/carve/visible_normal.h"
+#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/make_visible.h"
 
 namespace hexwright::fitting {
 namespace {

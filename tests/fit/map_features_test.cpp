@@ -1,13 +1,13 @@
 // Feature mapping: complete on plain shapes, disjoint and connected on crowded ones.
-#include "fit/map_features.h"
+#include "fit/curves/map_features.h"
 
 #include <numbers>
 #include <random>
 #include <set>
 
 #include "boundary_fixtures.h"
-#include "fit/regions.h"
-#include "fit/vert_reach.h"
+#include "fit/curves/regions.h"
+#include "fit/curves/vert_reach.h"
 
 namespace hexwright::fitting {
 namespace {

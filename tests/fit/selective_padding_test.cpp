@@ -1,17 +1,17 @@
 // Selective padding: valid, consistently marked, and cheaper than a layer everywhere.
-#include "fit/selective_padding.h"
+#include "fit/sheets/selective_padding.h"
 
 #include "hexwright/fit/fit.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
-#include "fit/curve_convexity.h"
-#include "fit/extrude_regions.h"
-#include "fit/pad_boundary.h"
-#include "fit/padding_groups.h"
-#include "fit/pillow_failed.h"
-#include "fit/sweep.h"
-#include "fit/targets.h"
+#include "fit/curves/curve_convexity.h"
+#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/pad_boundary.h"
+#include "fit/sheets/padding_groups.h"
+#include "fit/sheets/pillow_failed.h"
+#include "relax/sweep.h"
+#include "relax/targets.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -1,10 +1,10 @@
 // What a depth requires of the one above, and blocks of one parity, against their definitions.
-#include "grid/balance.h"
+#include "grid/pairing/balance.h"
 
 #include <gtest/gtest.h>
 
-#include "grid/blocks.h"
 #include "grid/grid_helpers.h"
+#include "grid/pairing/blocks.h"
 #include "grid/plain_sets.h"
 
 namespace hexwright {

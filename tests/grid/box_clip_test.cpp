@@ -1,5 +1,5 @@
 // Clipping to a cube, against areas sampled by brute force.
-#include "grid/box_clip.h"
+#include "grid/sizing/box_clip.h"
 
 #include <random>
 

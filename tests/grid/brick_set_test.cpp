@@ -1,5 +1,5 @@
 // Words of 4x4x4 nodes and sets of them, against plain sets of nodes.
-#include "grid/brick_set.h"
+#include "grid/sets/brick_set.h"
 
 #include <gtest/gtest.h>
 

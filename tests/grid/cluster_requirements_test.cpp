@@ -1,5 +1,5 @@
 // Pricing by clusters against pricing from scratch.
-#include "grid/cluster_requirements.h"
+#include "grid/pairing/cluster_requirements.h"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // Clusters, their costs and their conflicts, node by node.
-#include "grid/clusters.h"
+#include "grid/pairing/clusters.h"
 
 #include <map>
 

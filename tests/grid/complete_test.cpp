@@ -8,7 +8,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "grid/grid_helpers.h"
-#include "grid/pose.h"
+#include "grid/sets/pose.h"
 #include "helpers.h"
 
 namespace hexwright {

@@ -6,8 +6,8 @@
 
 #include "hexwright/base/error.h"
 
+#include "grid/cells/morton.h"
 #include "grid/grid_helpers.h"
-#include "grid/morton.h"
 
 namespace hexwright {
 namespace {

@@ -8,10 +8,10 @@
 #include "hexwright/base/error.h"
 #include "hexwright/grid/ilp.h"
 
-#include "grid/blocks.h"
 #include "grid/grid_helpers.h"
-#include "grid/ilp_program.h"
-#include "grid/labelling.h"
+#include "grid/ilp/ilp_program.h"
+#include "grid/pairing/blocks.h"
+#include "labelling/labelling.h"
 
 namespace hexwright {
 namespace {

@@ -1,5 +1,5 @@
 // From leaves to split nodes and back.
-#include "grid/nested_sets.h"
+#include "grid/sets/nested_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "grid/brick_set.h"
+#include "grid/sets/brick_set.h"
 
 namespace hexwright::test {
 

@@ -1,5 +1,5 @@
 // The 48 poses, and the choice of one by shape alone.
-#include "grid/pose.h"
+#include "grid/sets/pose.h"
 
 #include <random>
 #include <set>

@@ -11,8 +11,8 @@
 #include "hexwright/geometry/shape_diameter.h"
 #include "hexwright/geometry/surface_tree.h"
 
-#include "grid/box_clip.h"
-#include "grid/sizing_scene.h"
+#include "grid/sizing/box_clip.h"
+#include "grid/sizing/sizing_scene.h"
 #include "helpers.h"
 
 namespace hexwright {

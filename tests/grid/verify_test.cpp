@@ -5,8 +5,8 @@
 
 #include "hexwright/grid/complete.h"
 
-#include "grid/clusters.h"
 #include "grid/grid_helpers.h"
+#include "grid/pairing/clusters.h"
 
 namespace hexwright {
 namespace {

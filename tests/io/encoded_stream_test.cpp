@@ -1,5 +1,5 @@
 // Binary blocks of VTK's XML files.
-#include "io/encoded_stream.h"
+#include "io/text/encoded_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/io/surface_io.h"
 
-#include "io/byte_reader.h"
 #include "io/sample_meshes.h"
 #include "io/temp_folder.h"
+#include "io/text/byte_reader.h"
 
 namespace hexwright {
 namespace {

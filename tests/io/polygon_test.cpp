@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_soup.h"
-#include "io/polygon_soup.h"
+#include "io/surface/polygon_soup.h"
 
 namespace hexwright::io {
 namespace {

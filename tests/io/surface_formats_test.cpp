@@ -7,8 +7,8 @@
 #include "hexwright/io/surface_io.h"
 
 #include "helpers.h"
-#include "io/byte_reader.h"
 #include "io/temp_folder.h"
+#include "io/text/byte_reader.h"
 
 namespace hexwright {
 namespace {

@@ -1,5 +1,5 @@
 // Tokens, lines and numbers of text, against plain splitting; and numbers written and read again.
-#include "io/text_scanner.h"
+#include "io/text/text_scanner.h"
 
 #include <bit>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "hexwright/base/error.h"
 
-#include "io/encoded_stream.h"
-#include "io/text_writer.h"
+#include "io/text/encoded_stream.h"
+#include "io/text/text_writer.h"
 
 namespace hexwright::io {
 namespace {

@@ -9,16 +9,11 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/geometry/expected_topology.h"
+#include "hexwright/geometry/side.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
 
 namespace hexwright {
-
-enum class Side {
-  Inside,
-  Outside,  ///< the background around the object; its outer boundary stays in its planes
-  Both      ///< all of the background, conforming, with region tags 1 (inside) and 2 (outside)
-};
 
 struct CarveOptions {
   Side side = Side::Inside;

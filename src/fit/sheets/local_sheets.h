@@ -1,0 +1,30 @@
+// Sheets around the few hexes of a group that are in need, instead of a layer under all of it.
+#pragma once
+
+#include <optional>
+
+#include "fit/sheets/padding_groups.h"
+
+namespace hexwright::fitting {
+
+/// What local sheets work on, besides the mesh and its marks.
+struct LocalSheetInput {
+  const FeatureGraph& features;
+  const PaddingGroups& groups;
+  const IdVector<CurveId, double>& convex_share;  ///< per curve, seen from outside the mesh
+};
+
+/// Per group: hexes that sheets around what is in need would take; absent where they would not do:
+/// a wrapped hex at a concave curve meets it worse than a layer.
+IdVector<GroupId, std::optional<std::size_t>> count_local_hexes(const FitState& state,
+                                                                const FeatureMarks& marks,
+                                                                const LocalSheetInput& input);
+
+/// Wraps the hexes in need of the groups chosen, until none is left or nothing more can be done.
+/// Where a sheet cannot pass a vertex its set takes in all hexes there. Returns the needs that
+/// remain, per group.
+IdVector<GroupId, int> insert_local_sheets(FitState& state, FeatureMarks& marks,
+                                           const LocalSheetInput& input,
+                                           const IdVector<GroupId, char>& is_chosen);
+
+}  // namespace hexwright::fitting

@@ -1,0 +1,69 @@
+// Most squeezed quads are flat enough after the fit; hexes are spent only on the others.
+#include "fit/sheets/pillow_failed.h"
+
+#include <algorithm>
+
+#include "relax/finish.h"
+#include "relax/sweep.h"
+#include "relax/targets.h"
+
+namespace hexwright::fitting {
+namespace {
+
+std::vector<char> find_failed(const FitState& state, const FailedOptions& options) {
+  std::vector<char> has_failed(state.num_verts(), 0);
+  const IdSpan<VertId, const Vec3> positions(state.mesh.positions);
+  for (VertId v : state.kind.ids()) {
+    const bool is_feature = state.kind[v] == VertKind::Curve || state.kind[v] == VertKind::Corner;
+    if (!is_feature || state.stars[v].empty()) continue;
+    const double quality =
+        min_scaled_jacobian_around(state.mesh.positions[v], state.stars[v], positions);
+    has_failed[v.index()] = quality < options.low || state.residual(v) > options.stuck ? 1 : 0;
+  }
+  return has_failed;
+}
+
+std::size_t count(const std::vector<char>& flags) {
+  return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
+}
+
+void run_locally(FitState& state, const std::vector<char>& region, const FitTarget& target,
+                 const ShapeEnergy& shape, const std::vector<double>& weights) {
+  const LocalSweep local(state, region);
+  for (double weight : weights) {
+    update_targets(state, target, 0, region);
+    mark_boundary_dirty(state, region);
+    for (int s = 0; s < 2; ++s) local.run_dirty(state, {shape, weight, 0.01});
+  }
+}
+
+}  // namespace
+
+PillowReport pillow_failed_quads(FitState& state, FeatureMarks& marks, const FitTarget& target,
+                                 const FailedOptions& options, const Context& context) {
+  update_targets(state, target, 0);
+  PillowOptions pillow;
+  pillow.whole_regions = false;
+  pillow.is_wanted = find_failed(state, options);
+  const std::size_t num_failed = count(pillow.is_wanted);
+  if (num_failed == 0) return {};
+  FitState tried = state;
+  FeatureMarks tried_marks = marks;
+  const PillowReport report = pillow_squeezed_quads(tried, tried_marks, pillow);
+  if (report.num_pillows == 0) return report;
+  std::vector<char> region(tried.num_verts(), 0);
+  for (std::size_t v = state.num_verts(); v < region.size(); ++v) region[v] = 1;
+  grow_vert_set(tried, region, options.rings);
+  run_locally(tried, region, target, {0, 1, 0}, geometric_weights(3, 300, 5));
+  context.check_cancelled();
+  run_locally(tried, region, target, {0.9, 1, 0}, geometric_weights(300, 1e5, 5));
+  refit_stuck(tried, target, {}, context);
+  update_targets(tried, target, 0);
+  const auto most = options.worthwhile * static_cast<double>(num_failed);
+  if (static_cast<double>(count(find_failed(tried, options))) > most) return {};
+  state = std::move(tried);
+  marks = std::move(tried_marks);
+  return report;
+}
+
+}  // namespace hexwright::fitting

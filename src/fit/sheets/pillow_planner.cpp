@@ -1,0 +1,134 @@
+// A set must be manifold and visible where its sheet passes, and must not tear marks apart.
+#include "fit/sheets/pillow_planner.h"
+
+#include <algorithm>
+
+namespace hexwright::fitting {
+namespace {
+
+constexpr double kDepth = 0.3;
+
+}  // namespace
+
+PillowPlanner::PillowPlanner(const FitState& state, const FeatureMarks& marks,
+                             const MarkedGraph& marked, const PillowOptions& options)
+    : state_(state),
+      marks_(marks),
+      marked_(marked),
+      options_(options),
+      check_(state.mesh, state.vert_to_hex, state.neighbors, false),
+      is_in_(state.mesh.num_hexes(), 0),
+      is_selected_(state.quads.size(), 0),
+      is_sheet_vert_(state.num_verts(), 0) {}
+
+/// The job's set with the first extent that works; empty hexes when none does.
+PillowSet PillowPlanner::plan(const PillowJob& job) {
+  if (options_.whole_regions) return try_quads(job, quads_of_region(job.region));
+  for (int ring : {options_.ring, 0, options_.ring + 1, options_.ring + 2}) {
+    PillowSet set = try_quads(job, grow(job, ring));
+    if (!set.hexes.empty()) return set;
+  }
+  return {};
+}
+
+std::vector<QuadId> PillowPlanner::grow(const PillowJob& job, int ring) const {
+  std::vector<QuadId> quads = job.quads;
+  for (int k = 0; k < ring; ++k) {
+    std::vector<QuadId> next = quads;
+    for (QuadId q : quads)
+      for (VertId v : state_.quads[q.index()])
+        for (QuadId other : marked_.graph.quads(v))
+          if (marks_.quad_to_region[other] == job.region) next.push_back(other);
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    quads = std::move(next);
+  }
+  return quads;
+}
+
+std::vector<QuadId> PillowPlanner::quads_of_region(RegionId region) const {
+  std::vector<QuadId> quads;
+  for (QuadId q : marks_.quad_to_region.ids())
+    if (marks_.quad_to_region[q] == region) quads.push_back(q);
+  return quads;
+}
+
+PillowSet PillowPlanner::try_quads(const PillowJob& job, const std::vector<QuadId>& quads) {
+  PillowSet set;
+  for (QuadId q : quads) {
+    set.hexes.push_back(state_.quad_face[q.index()].hex);
+    is_selected_[q.index()] = 1;
+  }
+  std::sort(set.hexes.begin(), set.hexes.end());
+  set.hexes.erase(std::unique(set.hexes.begin(), set.hexes.end()), set.hexes.end());
+  for (HexId h : set.hexes) is_in_[h.index()] = 1;
+  collect_faces(set);
+  for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 1;
+  const bool is_good = splits_a_squeezed_vert(job) && keeps_marks(job, set) && find_directions(set);
+  for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 0;
+  for (HexId h : set.hexes) is_in_[h.index()] = 0;
+  for (QuadId q : quads) is_selected_[q.index()] = 0;
+  return is_good ? set : PillowSet{};
+}
+
+void PillowPlanner::collect_faces(PillowSet& set) const {
+  for (HexId h : set.hexes)
+    for (int lf = 0; lf < 6; ++lf) {
+      const HexId other = state_.neighbors.neighbor[h][static_cast<std::size_t>(lf)];
+      if (!other.is_valid() || is_in_[other.index()]) continue;
+      set.sheet.quads.push_back(face_verts(state_.mesh, {h, lf}));
+      set.sheet.behind.push_back(h);
+    }
+  set.sheet.verts = sheet_verts(set.sheet.quads);
+  set.sheet.depth = kDepth;
+}
+
+bool PillowPlanner::splits_a_squeezed_vert(const PillowJob& job) const {
+  for (QuadId q : job.quads) {
+    const unsigned corners = squeezed_corners(state_, marked_, q, options_.corner_angle);
+    for (std::size_t k = 0; k < 4; ++k)
+      if ((corners >> k & 1u) != 0 && is_sheet_vert_[state_.quads[q.index()][k].index()])
+        return true;
+  }
+  return false;
+}
+
+/// The sheet may end on curves and inside the job's region, but not cross anything else.
+bool PillowPlanner::keeps_marks(const PillowJob& job, const PillowSet& set) const {
+  for (VertId v : set.sheet.verts) {
+    if (state_.move[v] != MoveIn::Space) return false;
+    if (!is_rim(v)) continue;
+    for (QuadId q : marked_.graph.quads(v)) {
+      if (!is_in_[state_.quad_face[q.index()].hex.index()] || is_selected_[q.index()]) continue;
+      if (state_.kind[v] != VertKind::Surface || marks_.quad_to_region[q] != job.region)
+        return false;
+    }
+    for (BoundaryEdgeId e : marked_.graph.edges(v))
+      if (marked_.is_marked(e) && is_inside(e)) return false;
+  }
+  return true;
+}
+
+bool PillowPlanner::is_inside(BoundaryEdgeId e) const {
+  const auto& edge = marked_.graph.edge(e);
+  return edge.num_quads == 2 && is_in_[state_.quad_face[edge.quads[0].index()].hex.index()] &&
+         is_in_[state_.quad_face[edge.quads[1].index()].hex.index()];
+}
+
+/// On the boundary with quads of the set and of others.
+bool PillowPlanner::is_rim(VertId v) const {
+  bool any_in = false, any_out = false;
+  for (QuadId q : marked_.graph.quads(v))
+    (is_in_[state_.quad_face[q.index()].hex.index()] ? any_in : any_out) = true;
+  return any_in && any_out;
+}
+
+bool PillowPlanner::find_directions(PillowSet& set) {
+  for (VertId v : set.sheet.verts) {
+    if (check_.check(v, is_in_, options_.min_cosine) != SetFault::None) return false;
+    set.sheet.directions.push_back(check_.direction(v, is_in_).direction);
+  }
+  return true;
+}
+
+}  // namespace hexwright::fitting

@@ -1,0 +1,305 @@
+// Between hex meshes and VTK's unstructured grids.
+//
+// Cells are the hexes alone, so that viewers and solvers see a pure hex mesh; the labels travel in
+// the field data, which every program keeps and none interprets.
+#include "io/mesh/vtk_cells.h"
+
+#include <cmath>
+#include <limits>
+
+#include "io/surface/polygon_soup.h"
+#include "io/text/file_bytes.h"
+
+namespace hexwright::io {
+namespace {
+
+constexpr const char* kQuads = "boundary_quads";
+constexpr const char* kQuadPatch = "boundary_quad_patch";
+constexpr const char* kEdges = "feature_edges";
+constexpr const char* kEdgeCurve = "feature_edge_curve";
+constexpr const char* kCorners = "corners";
+
+class VtkConverter {
+ public:
+  VtkConverter(VtkGrid&& grid, const std::string& name) : grid_(std::move(grid)), name_(name) {}
+
+  VolumeFile run() {
+    if (grid_.types.size() != grid_.ends.size())
+      throw bad_file(name_, std::to_string(grid_.ends.size()) + " cells but " +
+                                std::to_string(grid_.types.size()) +
+                                " cell types; the file is damaged, export it again");
+    file_.positions = std::move(grid_.positions);
+    region_ = find_cell_array({"region", "medit:ref"});
+    patch_ = find_cell_array({"patch"});
+    curve_ = find_cell_array({"curve"});
+    std::int64_t begin = 0;
+    for (cell_ = 0; cell_ < grid_.ends.size(); ++cell_) {
+      const std::int64_t end = grid_.ends[cell_];
+      if (end < begin || end > static_cast<std::int64_t>(grid_.connectivity.size()))
+        fail("its vertices lie outside the connectivity array");
+      add_cell(
+          std::span(grid_.connectivity)
+              .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+      begin = end;
+    }
+    read_field_data();
+    return std::move(file_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw bad_element(name_, "cell " + std::to_string(cell_),
+                      message + "; the file is damaged, export it again");
+  }
+
+  const VtkArray* find_cell_array(std::initializer_list<std::string_view> names) const {
+    for (std::string_view name : names) {
+      const auto found = grid_.cell_data.find(name);
+      if (found != grid_.cell_data.end() && found->second.num_components == 1 &&
+          found->second.values.size() == grid_.ends.size())
+        return &found->second;
+    }
+    return nullptr;
+  }
+
+  template <std::size_t N>
+  std::array<VertId, N> to_verts(std::span<const std::int64_t> cell) const {
+    if (cell.size() != N)
+      fail("it has " + std::to_string(cell.size()) + " vertices instead of " + std::to_string(N));
+    std::array<VertId, N> verts;
+    for (std::size_t i = 0; i < N; ++i) {
+      if (cell[i] < 0 || cell[i] >= static_cast<std::int64_t>(file_.positions.size()))
+        fail("it uses vertex " + std::to_string(cell[i]) + " of " +
+             std::to_string(file_.positions.size()));
+      verts[i] = VertId(cell[i]);
+    }
+    return verts;
+  }
+
+  /// Labels are stored as numbers of any type; what is none of 32 bits is no label.
+  std::int32_t integer_at(const VtkArray* array, std::size_t i) const {
+    if (!array) return -1;
+    const double value = array->values[i];
+    const bool fits = value >= std::numeric_limits<std::int32_t>::min() &&
+                      value <= std::numeric_limits<std::int32_t>::max();  // not so for NaN
+    return fits ? static_cast<std::int32_t>(value) : -1;
+  }
+
+  void add_hex(const std::array<VertId, 8>& verts) {
+    file_.hexes.push_back(verts);
+    if (region_) file_.region.push_back(integer_at(region_, cell_));
+  }
+
+  /// VTK's hexahedron has our order; its voxel has lattice order, so two pairs change places.
+  void add_cell(std::span<const std::int64_t> cell) {
+    switch (grid_.types[cell_]) {
+      case VtkHexahedron:
+        return add_hex(to_verts<8>(cell));
+      case VtkVoxel: {
+        const auto v = to_verts<8>(cell);
+        return add_hex({v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]});
+      }
+      case VtkTetra:
+        file_.tets.push_back(to_verts<4>(cell));
+        return;
+      case VtkQuad:
+        file_.labels.quads.push_back(
+            {to_verts<4>(cell), to_id<PatchId>(integer_at(patch_, cell_))});
+        return;
+      case VtkLine:
+        file_.labels.edges.push_back(
+            {to_verts<2>(cell), to_id<CurveId>(integer_at(curve_, cell_))});
+        return;
+      case VtkVertex:
+        file_.labels.corners.push_back(to_verts<1>(cell)[0]);
+        return;
+      default:
+        ++file_.num_others;
+    }
+  }
+
+  template <class IdType>
+  static IdType to_id(std::int32_t value) {
+    return value >= 0 ? IdType(value) : IdType();
+  }
+
+  /// An array of the field data with this many components, or null.
+  const VtkArray* find_field(const char* array, std::size_t num_components) const {
+    const auto found = grid_.field_data.find(array);
+    if (found == grid_.field_data.end()) return nullptr;
+    if (found->second.values.size() % num_components != 0)
+      throw bad_element(name_, std::string("field array ") + array,
+                        "its length is no multiple of " + std::to_string(num_components) +
+                            "; the file is damaged, export it again");
+    return &found->second;
+  }
+
+  /// N vertices of a row of a field array. Foreign files may use our names for anything, so they
+  /// are checked like cells.
+  template <std::size_t N>
+  std::array<VertId, N> field_verts(const VtkArray& array, std::size_t row,
+                                    const char* what) const {
+    std::array<VertId, N> verts;
+    for (std::size_t i = 0; i < N; ++i) {
+      const double value = array.values[row * N + i];
+      if (!(value >= 0 && value < static_cast<double>(file_.positions.size())))
+        throw bad_element(name_, std::string("field array ") + what,
+                          "row " + std::to_string(row) +
+                              " uses a vertex that does not exist; export the file again");
+      verts[i] = VertId(static_cast<std::int64_t>(value));
+    }
+    return verts;
+  }
+
+  /// Labels in the field data replace those found as cells, which are the same ones repeated.
+  void read_field_data() {
+    if (const VtkArray* quads = find_field(kQuads, 4)) {
+      const VtkArray* patch = find_field(kQuadPatch, 1);
+      file_.labels.quads.clear();
+      for (std::size_t i = 0; i < quads->values.size() / 4; ++i)
+        file_.labels.quads.push_back(
+            {field_verts<4>(*quads, i, kQuads), to_id<PatchId>(label_at(patch, i))});
+    }
+    if (const VtkArray* edges = find_field(kEdges, 2)) {
+      const VtkArray* curve = find_field(kEdgeCurve, 1);
+      file_.labels.edges.clear();
+      for (std::size_t i = 0; i < edges->values.size() / 2; ++i)
+        file_.labels.edges.push_back(
+            {field_verts<2>(*edges, i, kEdges), to_id<CurveId>(label_at(curve, i))});
+    }
+    if (const VtkArray* corners = find_field(kCorners, 1)) {
+      file_.labels.corners.clear();
+      for (std::size_t i = 0; i < corners->values.size(); ++i)
+        file_.labels.corners.push_back(field_verts<1>(*corners, i, kCorners)[0]);
+    }
+    if (const VtkArray* frame = find_field("grid_frame", 4)) file_.grid_frame = frame->values;
+  }
+
+  std::int32_t label_at(const VtkArray* array, std::size_t i) const {
+    return array && i < array->values.size() ? integer_at(array, i) : -1;
+  }
+
+  VtkGrid grid_;
+  const std::string& name_;
+  VolumeFile file_;
+  const VtkArray* region_ = nullptr;
+  const VtkArray* patch_ = nullptr;
+  const VtkArray* curve_ = nullptr;
+  std::size_t cell_ = 0;
+};
+
+VtkOutArray int_array(const char* name, std::size_t num_components) {
+  VtkOutArray array;
+  array.name = name;
+  array.num_components = num_components;
+  array.is_int = true;
+  return array;
+}
+
+/// Field data belongs to the mesh as a whole: programs that do not know it carry it along
+/// untouched.
+void add_label_arrays(const BoundaryLabels& labels, VtkOutput& out) {
+  if (!labels.quads.empty()) {
+    VtkOutArray quads = int_array(kQuads, 4), patch = int_array(kQuadPatch, 1);
+    for (const LabeledQuad& quad : labels.quads) {
+      for (VertId v : quad.verts) quads.ints.push_back(v.value());
+      patch.ints.push_back(quad.patch.value());
+    }
+    out.field_data.push_back(std::move(quads));
+    out.field_data.push_back(std::move(patch));
+  }
+  if (!labels.edges.empty()) {
+    VtkOutArray edges = int_array(kEdges, 2), curve = int_array(kEdgeCurve, 1);
+    for (const LabeledEdge& edge : labels.edges) {
+      for (VertId v : edge.verts) edges.ints.push_back(v.value());
+      curve.ints.push_back(edge.curve.value());
+    }
+    out.field_data.push_back(std::move(edges));
+    out.field_data.push_back(std::move(curve));
+  }
+  if (!labels.corners.empty()) {
+    VtkOutArray corners = int_array(kCorners, 1);
+    for (VertId v : labels.corners) corners.ints.push_back(v.value());
+    out.field_data.push_back(std::move(corners));
+  }
+}
+
+/// Our local order of all kinds is that of VTK.
+template <class Verts>
+void add_out_cell(const Verts& verts, VtkCellType type, VtkOutput& out) {
+  for (VertId v : verts) out.connectivity.push_back(v.value());
+  out.ends.push_back(static_cast<std::int32_t>(out.connectivity.size()));
+  out.types.push_back(static_cast<std::uint8_t>(type));
+}
+
+/// Quads, edges and corners as cells after the hexes, with their numbers as cell data; cells of
+/// another kind get -1.
+void add_set_cells(const HexMesh& mesh, VtkOutput& out) {
+  VtkOutArray patch = int_array("patch", 1), curve = int_array("curve", 1);
+  patch.ints.assign(mesh.num_hexes(), -1);
+  curve.ints.assign(mesh.num_hexes(), -1);
+  const auto add = [&](std::int32_t patch_value, std::int32_t curve_value) {
+    patch.ints.push_back(patch_value);
+    curve.ints.push_back(curve_value);
+  };
+  for (const LabeledQuad& quad : mesh.labels.quads) {
+    add_out_cell(quad.verts, VtkQuad, out);
+    add(quad.patch.value(), -1);
+  }
+  for (const LabeledEdge& edge : mesh.labels.edges) {
+    add_out_cell(edge.verts, VtkLine, out);
+    add(-1, edge.curve.value());
+  }
+  for (VertId v : mesh.labels.corners) {
+    add_out_cell(std::array{v}, VtkVertex, out);
+    add(-1, -1);
+  }
+  out.cell_data.push_back(std::move(patch));
+  out.cell_data.push_back(std::move(curve));
+}
+
+/// Cells behind the hexes get values that say "none": region -1, not a number elsewhere.
+void add_cell_fields(const HexMesh& mesh, const WriteHexOptions& options, VtkOutput& out) {
+  if (!mesh.region.empty()) {
+    VtkOutArray region = int_array("region", 1);
+    region.ints = mesh.region.raw();
+    region.ints.resize(out.ends.size(), -1);
+    out.cell_data.push_back(std::move(region));
+  }
+  for (const HexField& field : options.fields) {
+    VtkOutArray array;
+    array.name = field.name;
+    array.reals = field.values;
+    array.reals.resize(out.ends.size(), std::numeric_limits<double>::quiet_NaN());
+    out.cell_data.push_back(std::move(array));
+  }
+}
+
+}  // namespace
+
+VolumeFile to_volume_file(VtkGrid&& grid, const std::string& file_name) {
+  return VtkConverter(std::move(grid), file_name).run();
+}
+
+/// The same content for the legacy and the XML format. `feature` on the points is for looking at;
+/// what is read back are the field arrays.
+VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options) {
+  VtkOutput out;
+  out.connectivity.reserve(8 * mesh.num_hexes());
+  out.ends.reserve(mesh.num_hexes());
+  out.types.reserve(mesh.num_hexes());
+  for (const auto& hex : mesh.hexes) add_out_cell(hex, VtkHexahedron, out);
+  if (options.write_sets) add_set_cells(mesh, out);
+  add_cell_fields(mesh, options, out);
+  const BoundaryLabels& labels = mesh.labels;
+  if (!labels.quads.empty() || !labels.edges.empty() || !labels.corners.empty()) {
+    const auto flags = compute_feature_flags(mesh);
+    VtkOutArray feature = int_array("feature", 1);
+    feature.ints.assign(flags.begin(), flags.end());
+    out.point_data.push_back(std::move(feature));
+  }
+  add_label_arrays(labels, out);
+  return out;
+}
+
+}  // namespace hexwright::io

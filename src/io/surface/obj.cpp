@@ -1,0 +1,103 @@
+// Reads Wavefront OBJ surfaces: v and f lines; everything else is passed over.
+//
+// Based on: Wavefront, "Advanced Visualizer Manual", appendix B1 (object files).
+// Differs: curves and free-form surfaces are passed over, with a warning for words that are not
+// even of the format.
+#include <array>
+
+#include "io/surface/polygon_soup.h"
+#include "io/text/text_scanner.h"
+
+namespace hexwright::io {
+namespace {
+
+// Keywords of the format that carry no surface. Others are passed over too, with a warning.
+constexpr std::array<std::string_view, 24> kOtherKeywords = {
+    "vt",     "vn",  "vp",     "g",    "o",     "s",         "mg",       "usemtl",
+    "l",      "p",   "mtllib", "lod",  "bevel", "maplib",    "usemap",   "shadow_obj",
+    "cstype", "deg", "step",   "curv", "curv2", "trace_obj", "c_interp", "d_interp"};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const SurfaceSource& source)
+      : source_(source), scanner_(source.bytes, source.name) {}
+
+  PolygonSoup run() {
+    while (scanner_.skip_blank()) {
+      const std::string_view keyword = scanner_.line_token();
+      if (keyword == "v")
+        soup_.positions.push_back(scanner_.line_point("a vertex"));
+      else if (keyword == "f" || keyword == "fo")
+        read_face();
+      else
+        note_other(keyword);
+      scanner_.next_line();
+    }
+    check_forward_references();
+    return std::move(soup_);
+  }
+
+ private:
+  void read_face() {
+    for (auto token = scanner_.line_token(); !token.empty(); token = scanner_.line_token())
+      soup_.verts.push_back(to_vert(token));
+    if (const auto n = soup_.num_open_verts(); n < 3)
+      scanner_.fail("a face with " + std::to_string(n) +
+                    " vertices; every face needs three or more: the line is cut short or wrong");
+    soup_.end_polygon();
+  }
+
+  /// "7", "7/1", "7//3", "7/1/3", "-1": only the first index counts. Negative ones count backwards.
+  VertId to_vert(std::string_view token) {
+    const std::int64_t index =
+        scanner_.to_integer(token.substr(0, token.find('/')), "a vertex index");
+    const auto num_verts = static_cast<std::int64_t>(soup_.positions.size());
+    if (index == 0)
+      scanner_.fail("vertex index 0; indices of this format start at 1, correct the line");
+    if (index < -num_verts || index > static_cast<std::int64_t>(kMaxElements)) fail_range(index);
+    if (index > largest_index_) {
+      largest_index_ = index;
+      largest_line_ = scanner_.line();
+    }
+    return VertId(index > 0 ? index - 1 : num_verts + index);
+  }
+
+  // A face may come before its vertices, so that the range is known at the end only.
+  void check_forward_references() {
+    if (largest_index_ > static_cast<std::int64_t>(soup_.positions.size()))
+      TextScanner::fail_at(source_.name, largest_line_, range_message(largest_index_));
+  }
+
+  void fail_range(std::int64_t index) { scanner_.fail(range_message(index)); }
+  std::string range_message(std::int64_t index) const {
+    return "the face uses vertex " + std::to_string(index) + ", but the file has " +
+           std::to_string(soup_.positions.size()) +
+           " vertices; the file is truncated or damaged, export it again";
+  }
+
+  void note_other(std::string_view keyword) {
+    for (std::string_view known : kOtherKeywords)
+      if (keyword == known) return;
+    for (char c : keyword)
+      if (c < 32 || c > 126)
+        scanner_.fail(
+            "this is no text line of an OBJ file; check that it is one, or export it again");
+    if (has_warned_) return;
+    has_warned_ = true;
+    source_.warnings.push_back("line " + std::to_string(scanner_.line()) + ": keyword " +
+                               in_quotes(keyword) + " is unknown; such lines are left out");
+  }
+
+  const SurfaceSource& source_;
+  TextScanner scanner_;
+  PolygonSoup soup_;
+  std::int64_t largest_index_ = 0;
+  std::size_t largest_line_ = 0;
+  bool has_warned_ = false;
+};
+
+}  // namespace
+
+PolygonSoup read_obj(const SurfaceSource& source) { return ObjReader(source).run(); }
+
+}  // namespace hexwright::io

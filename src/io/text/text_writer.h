@@ -1,0 +1,65 @@
+// Builds output of text and binary parts fast; numbers are written with as many digits as reading
+// them back needs.
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+#include "hexwright/base/vec3.h"
+
+#include "io/text/byte_reader.h"
+
+namespace hexwright::io {
+
+class TextWriter {
+ public:
+  TextWriter& text(std::string_view words) {
+    out_ += words;
+    return *this;
+  }
+  template <class Integer>
+  TextWriter& integer(Integer value) {
+    return number(value);
+  }
+  TextWriter& real(double value) { return number(value); }
+  /// Scientific form with this many digits after the point.
+  TextWriter& real_rounded(double value, int digits) {
+    char buffer[48];
+    const auto result =
+        std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits);
+    out_.append(buffer, result.ptr);
+    return *this;
+  }
+  TextWriter& point(const Vec3& p) { return real(p.x).text(" ").real(p.y).text(" ").real(p.z); }
+  /// Ids, separated by blanks, plus `base`.
+  template <class Ids>
+  TextWriter& indices(const Ids& ids, int base) {
+    bool is_first = true;
+    for (auto id : ids) {
+      if (!is_first) out_ += ' ';
+      is_first = false;
+      integer(id.value() + base);
+    }
+    return *this;
+  }
+  template <class Number>
+  TextWriter& binary(Number value, ByteOrder order) {
+    store(out_, value, order);
+    return *this;
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  template <class Number>
+  TextWriter& number(Number value) {
+    char buffer[32];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    out_.append(buffer, result.ptr);
+    return *this;
+  }
+
+  std::string out_;
+};
+
+}  // namespace hexwright::io

@@ -1,0 +1,132 @@
+// A surface vertex goes to the closest point of its patch whose normal agrees with the mesh's; the
+// normal is given up where it would lead far away, and so is the patch.
+#include "relax/targets.h"
+
+#include <algorithm>
+
+#include "hexwright/base/parallel.h"
+
+#include "relax/curve_targets.h"
+
+namespace hexwright::fitting {
+namespace {
+
+// A vertex that moved by less than this, in h, since it last looked keeps its target: what it is
+// pulled to is a plane, off the surface by less than half the curvature times the square of the
+// way.
+constexpr double kSamePlace = 0.01;
+
+// Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
+IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<const char> only) {
+  IdVector<VertId, Vec3> normals(state.num_verts());
+  const auto& p = state.mesh.positions;
+  for (const auto& q : state.quads) {
+    if (!only.empty() &&
+        std::none_of(q.begin(), q.end(), [&](VertId v) { return only[v.index()] != 0; }))
+      continue;
+    const Vec3 n = normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
+    for (VertId v : q) normals[v] += n;
+  }
+  return normals;
+}
+
+class SurfaceMatcher {
+ public:
+  SurfaceMatcher(const FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal)
+      : tree_(tree),
+        x_(state.mesh.positions[v]),
+        normal_(normal),
+        h_(state.size[v]),
+        patch_(state.patch[v]) {
+    // The last target bounds the search: it is on the surface, mostly still on the right side of
+    // it.
+    if (state.direction[v] != Vec3{})
+      bound_ = (1 + 1e-6) * (hexwright::distance(x_, state.target[v]) + std::abs(state.offset[v])) +
+               1e-9 * h_;
+  }
+
+  std::optional<ClosestPoint> find() const {
+    auto best = patch_.is_valid() ? find_on_patch() : std::nullopt;
+    if (best && distance(*best) > 1.5 * h_) {
+      const auto other = query(0.3, {}, 0.4 * distance(*best));
+      if (other) best = other;
+    }
+    return best ? best : find_anywhere();
+  }
+
+ private:
+  static double distance(const ClosestPoint& c) { return std::sqrt(c.distance_sq); }
+
+  std::optional<ClosestPoint> query(
+      double min_cosine, PatchId patch,
+      double max_distance = std::numeric_limits<double>::infinity()) const {
+    ClosestFilter filter;
+    filter.normal = normal_;
+    filter.min_cosine = min_cosine;
+    filter.patch = patch;
+    filter.max_distance = max_distance;
+    return tree_.closest(x_, filter);
+  }
+
+  std::optional<ClosestPoint> find_on_patch() const { return find_filtered(-0.2, patch_, 0.3); }
+  std::optional<ClosestPoint> find_anywhere() const { return find_filtered(0.1, {}, 0.5); }
+
+  // With the normal filter unless that is much farther than without.
+  std::optional<ClosestPoint> find_filtered(double min_cosine, PatchId patch, double slack) const {
+    auto facing = query(min_cosine, patch, bound_);
+    if (!facing && std::isfinite(bound_)) facing = query(min_cosine, patch);
+    if (facing && distance(*facing) <= 0.5 * h_) return facing;
+    const auto any = query(-2, patch);
+    if (!facing) return any;
+    if (any && distance(*facing) > 3 * distance(*any) + slack * h_) return any;
+    return facing;
+  }
+
+  const SurfaceTree& tree_;
+  Vec3 x_, normal_;
+  double h_;
+  PatchId patch_;
+  double bound_ = std::numeric_limits<double>::infinity();
+};
+
+void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal) {
+  const TargetQuery query = {state.mesh.positions[v], state.offset[v], state.patch[v]};
+  TargetQuery& last = state.query[v];
+  if (query.patch == last.patch && query.offset == last.offset &&
+      norm_sq(query.from - last.from) < kSamePlace * kSamePlace * state.size[v] * state.size[v])
+    return;
+  const auto found = SurfaceMatcher(state, tree, v, normal).find();
+  if (!found) return;
+  last = query;
+  const Vec3 offset = state.mesh.positions[v] - found->point;
+  const double length = norm(offset), h = state.size[v];
+  Vec3 direction = length < 1e-3 * h ? tree.normal(found->tri) : offset / length;
+  if (dot(direction, normal) < 0) direction = -direction;  // outwards, whatever the orientation
+  const Vec3 point = found->point + state.offset[v] * direction;
+  if (distance(point, state.target[v]) > 1e-5 * h ||
+      std::abs(dot(direction, state.direction[v])) < 0.9999)
+    state.is_dirty[v] = 1;
+  state.target[v] = point;
+  state.direction[v] = direction;
+}
+
+}  // namespace
+
+void update_targets(FitState& state, const FitTarget& target, double hold,
+                    std::span<const char> only) {
+  const auto normals = compute_vertex_normals(state, only);
+  parallel_for(
+      state.num_verts(),
+      [&](std::size_t i) {
+        const VertId v(i);
+        if (!only.empty() && !only[i]) return;
+        if (state.kind[v] == VertKind::Surface) {
+          update_surface_target(state, target.tree, v, normalized(normals[v]));
+        } else if (state.kind[v] != VertKind::Interior && target.features) {
+          update_feature_target(state, v, target.tree.surface(), *target.features, hold);
+        }
+      },
+      64);
+}
+
+}  // namespace hexwright::fitting
