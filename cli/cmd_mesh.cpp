@@ -45,6 +45,8 @@ void run(const MeshCommand& cmd, Program& program) {
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
+  // Grid files have no axes of their own.
+  if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
   load_features(cmd.features, surface, options.fit.features);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
@@ -76,6 +78,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->get_option("--max-level")->each([cmd](const std::string&) {
     cmd->options.loop_extra_levels = 0;
   });
+  add_placement_option(*sub, cmd->options);
   sub->add_flag("--no-loop", cmd->no_loop,
                 "A single pass with a stricter a-priori sizing, instead of refining where the fit "
                 "missed");
@@ -95,7 +98,9 @@ void add_mesh_command(CLI::App& app, Program& program) {
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
-  sub->add_option("--save-grid", cmd->grid, "Write the completed grid (.cells, .htg, .vtu)");
+  sub->add_option("--save-grid", cmd->grid,
+                  "Write the completed grid (.cells, .htg, .vtu); the lattice then lies "
+                  "as given");
   add_console_options(*sub, program);
   sub->footer(
       "Examples:\n"

@@ -118,6 +118,13 @@ void add_complete_options(CLI::App& cmd, CompleteOptions& options) {
              "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak");
 }
 
+void add_placement_option(CLI::App& cmd, MeshOptions& options) {
+  add_choice(cmd, "--placement", options.placement,
+             {{"faces", Placement::Faces}, {"as-given", Placement::AsGiven}},
+             "The lattice along the part's faces, however they are turned (inside only), or along "
+             "the given axes");
+}
+
 void add_feature_options(CLI::App& cmd, FeatureOptions& options) {
   cmd.add_option_function<double>(
          "--feature-angle",

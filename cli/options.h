@@ -10,6 +10,7 @@
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/sizing.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/mesh_surface.h"
 
 #include "commands.h"
 
@@ -23,6 +24,9 @@ void add_sizing_options(CLI::App& cmd, SizingOptions& options);
 
 /// --pairing, --balance.
 void add_complete_options(CLI::App& cmd, CompleteOptions& options);
+
+/// --placement.
+void add_placement_option(CLI::App& cmd, MeshOptions& options);
 
 /// --feature-angle.
 void add_feature_options(CLI::App& cmd, FeatureOptions& options);

@@ -116,7 +116,7 @@ class Fitter {
  public:
   Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
       : surface_(surface),
-        tree_(surface.surface()),
+        tree_(surface.surface(), surface.diagonal()),
         options_(options),
         context_(context),
         clock_(context, report_.seconds, report_.processor_seconds) {}
@@ -311,8 +311,7 @@ class Fitter {
       snap_to_targets(state, target(), options_.snap_quality, is_miss);
       lift_worst(state, target(), {}, context_);
     }
-    meet_corners(state, kCornerMiss * bounding_box(surface_.surface()).diagonal(),
-                 options_.snap_quality);
+    meet_corners(state, kCornerMiss * surface_.diagonal(), options_.snap_quality);
   }
 
   FitResult conclude(Attempt result) {

@@ -85,6 +85,7 @@ class VisitStack {
 struct SurfaceTree::Impl {
   TriMesh surface;
   Box3 box;
+  double diagonal = 0;
   TriangleBvh bvh;
   IdVector<TriId, Vec3> normals;
   std::vector<TriangleData> slots;       // triangles in leaf order
@@ -220,13 +221,17 @@ void SurfaceTree::Impl::search(const Vec3& p, const ClosestFilter& filter, Best&
   }
 }
 
-SurfaceTree::SurfaceTree(TriMesh surface) : impl_(std::make_unique<Impl>(std::move(surface))) {}
+SurfaceTree::SurfaceTree(TriMesh surface, double diagonal)
+    : impl_(std::make_unique<Impl>(std::move(surface))) {
+  impl_->diagonal = diagonal > 0 ? diagonal : impl_->box.diagonal();
+}
 SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
 const TriMesh& SurfaceTree::surface() const { return impl_->surface; }
 const Box3& SurfaceTree::box() const { return impl_->box; }
+double SurfaceTree::diagonal() const { return impl_->diagonal; }
 const Vec3& SurfaceTree::normal(TriId t) const { return impl_->normals[t]; }
 PatchId SurfaceTree::patch(TriId t) const {
   return impl_->patches.empty() ? PatchId() : impl_->patches[t];

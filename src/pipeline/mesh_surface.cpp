@@ -9,6 +9,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/geometry/pose.h"
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/grid/rescale.h"
 #include "hexwright/pipeline/fewest_hexes.h"
@@ -47,6 +48,17 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
         static_cast<double>(sizing.splits_by_reason[r]);
 }
 
+/// How close to one plane, in the unit frame, the vertices of a turned plane face must lie to be
+/// put exactly on it: files in single precision leave some 1e-7.
+constexpr double kPlaneTolerance = 1e-6;
+
+/// Turns a surface in unit coordinates along its faces; `frame` turns with it.
+void turn_along_faces(const MeshOptions& options, TriMesh& surface, Similarity& frame) {
+  if (options.placement == Placement::AsGiven || options.fit.carve.side != Side::Inside) return;
+  frame.pose = find_pose(surface);
+  surface = turn_surface(surface, frame.pose, kPlaneTolerance);
+}
+
 /// The user's creases are given in the world.
 void map_to_unit(const Similarity& frame, FeatureOptions& options) {
   for (auto& segment : options.extra_segments)
@@ -79,6 +91,10 @@ CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even 
 CompleteResult complete_within_budget(const RoundInput& input, const FeatureGraph& features,
                                       MeshResult& result) {
   SizingOptions sizing = input.options.sizing;
+  // The sizing takes shares of the box's diagonal, which turning has changed.
+  const double turned = input.tree.diagonal() / input.tree.box().diagonal();
+  sizing.tolerance *= turned;
+  sizing.min_edge *= turned;
   while (true) {
     result.sizing = run_stage(result.stages, "sizing", input.context, [&] {
       return build_grid(input.tree.surface(), features, sizing, input.context);
@@ -266,15 +282,18 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
                                        [&] { return prepare_surface(surface, context); });
   result.surface = std::move(prepared.diagnosis);
   result.stages.back().counts["triangles"] = static_cast<double>(prepared.mesh.num_tris());
-  const Similarity frame = compute_unit_frame(prepared.mesh);
+  Similarity frame = compute_unit_frame(prepared.mesh);
   prepared.mesh = to_unit(prepared.mesh, frame);
+  const double diagonal = bounding_box(prepared.mesh).diagonal();
+  turn_along_faces(given, prepared.mesh, frame);
 
   // What the surface is like.
   MeshOptions options = given;
   map_to_unit(frame, options.fit.features);
-  options = resolve_options(std::move(options), bounding_box(prepared.mesh).diagonal());
-  const SurfaceTree tree = run_stage(result.stages, "surface tree", context,
-                                     [&] { return SurfaceTree(std::move(prepared.mesh)); });
+  options = resolve_options(std::move(options), diagonal);
+  const SurfaceTree tree = run_stage(result.stages, "surface tree", context, [&] {
+    return SurfaceTree(std::move(prepared.mesh), diagonal);
+  });
   const FeatureGraph features = run_stage(result.stages, "features", context, [&] {
     // Once for all rounds: every fit and every judgement extracts the features again.
     FeatureOptions& judged = options.judge.features;

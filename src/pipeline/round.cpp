@@ -72,7 +72,7 @@ void find_refinable_features(const RoundInput& input, Round& round) {
   const bool is_mapped =
       round.fit.report.curve_length_mapped >= kMappedShare * recovery.total_length;
   if (!is_mapped && !is_within_gate(input, round)) return;
-  const double tolerance = input.options.judge.edge_tolerance * input.tree.box().diagonal();
+  const double tolerance = input.options.judge.edge_tolerance * input.tree.diagonal();
   round.refinable_features =
       find_refinable_features(round.grid, recovery, tolerance, deepest_level(input.options));
   if (!input.features) return;

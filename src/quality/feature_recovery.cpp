@@ -152,15 +152,16 @@ void add_up(const CurveSamples& samples, const std::vector<char>& is_recovered,
 
 }  // namespace
 
-FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
+FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& tree,
                                  const FeatureGraph& features, const JudgeOptions& options) {
+  const TriMesh& surface = tree.surface();
   FeatureRecovery result;
   result.total_length = features.total_length();
   result.num_corners = features.corners.size();
   for (const FeatureCurve& curve : features.curves)
     result.curves.push_back({curve.length(), total_turn(surface, curve), 1});
   if (features.empty()) return result;
-  const double diagonal = bounding_box(surface).diagonal();
+  const double diagonal = tree.diagonal();
   const auto edges = collect_edges(collect_judged_quads(mesh, options.distance.quads));
   if (result.total_length > 0) {
     const double tolerance = options.edge_tolerance * diagonal;

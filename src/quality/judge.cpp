@@ -95,7 +95,7 @@ Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOption
   context.check_cancelled();
   context.progress("check", 0.9);
   const FeatureGraph features = extract_features(surface, options.features);
-  verdict.features = measure_features(mesh, surface.surface(), features, options);
+  verdict.features = measure_features(mesh, surface, features, options);
   context.progress("check", 1);
   return verdict;
 }

@@ -156,7 +156,7 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   if (!(options.spacing > 0) || !(options.hot_threshold >= 0))
     throw Error(ErrorCode::BadArgument,
                 "the spacing of distance samples must be positive, the threshold not negative");
-  const double diagonal = surface.box().diagonal();
+  const double diagonal = surface.diagonal();
   if (!(diagonal > 0))
     throw Error(ErrorCode::BadGeometry, "the surface has no extent to measure distances by");
   const double hot = options.hot_threshold > 0 ? options.hot_threshold * diagonal

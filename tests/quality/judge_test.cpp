@@ -94,7 +94,8 @@ TEST(Judge, EdgesThatOnlyCrossACurveDoNotRecoverIt) {
   curve.verts = {VertId(0), VertId(7)};  // the cube's diagonal
   curve.arc_length = {0, kDiagonal};
   features.curves.push_back(curve);
-  const FeatureRecovery recovery = measure_features(cube_mesh(4), surface, features, {});
+  const FeatureRecovery recovery =
+      measure_features(cube_mesh(4), SurfaceTree(surface), features, {});
   EXPECT_EQ(recovery.length_share, 0);  // axis-parallel edges meet the diagonal at 55 degrees
 }
 

@@ -1,22 +1,26 @@
-// A change of scale and position, so that stages can work at unit size whatever the model's units.
+// A change of scale, position and pose, so that stages can work at unit size, along the axes of the
+// model's faces, whatever its units.
 #pragma once
 
 #include <cmath>
 
+#include "hexwright/geometry/rotation.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 namespace hexwright {
 
-/// world = center + unit * 2^exponent. The scale is a power of two, so scaling loses nothing;
-/// only the shift rounds, to the last bit of the world coordinate.
+/// world = center + pose^-1 (unit) * 2^exponent. The scale is a power of two, so scaling loses
+/// nothing; only the shift rounds, to the last bit of the world coordinate, and a pose that is not
+/// the identity.
 struct Similarity {
   Vec3 center;
   int exponent = 0;
+  Rotation pose = {};
 
   /// Length in the world of one unit; zero or infinity when it leaves the range of doubles.
   double scale() const { return std::ldexp(1.0, exponent); }
-  Vec3 to_unit(const Vec3& p) const { return scaled(p - center, -exponent); }
-  Vec3 to_world(const Vec3& p) const { return scaled(p, exponent) + center; }
+  Vec3 to_unit(const Vec3& p) const { return pose.apply(scaled(p - center, -exponent)); }
+  Vec3 to_world(const Vec3& p) const { return scaled(pose.apply_inverse(p), exponent) + center; }
   double length_to_unit(double length) const { return std::ldexp(length, -exponent); }
   double length_to_world(double length) const { return std::ldexp(length, exponent); }
 

@@ -34,13 +34,16 @@ struct ClosestFilter {
 /// among equally near points the lowest triangle id wins.
 class SurfaceTree {
  public:
-  explicit SurfaceTree(TriMesh surface);
+  /// `diagonal`: the length that tolerances are shares of, where it is not that of the surface's
+  /// box: a turned surface keeps the diagonal it was given with.
+  explicit SurfaceTree(TriMesh surface, double diagonal = 0);
   ~SurfaceTree();
   SurfaceTree(SurfaceTree&&) noexcept;
   SurfaceTree& operator=(SurfaceTree&&) noexcept;
 
   const TriMesh& surface() const;
   const Box3& box() const;
+  double diagonal() const;
   /// Unit normal by orientation; zero for a degenerate triangle.
   const Vec3& normal(TriId t) const;
 

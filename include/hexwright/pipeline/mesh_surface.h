@@ -19,7 +19,15 @@
 
 namespace hexwright {
 
+/// How the lattice lies on the part.
+enum class Placement {
+  Faces,  ///< along the dominant orthogonal frame of its faces (see geometry/pose.h); with the
+          ///< background meshed as well, as given, because its box would turn
+  AsGiven
+};
+
 struct MeshOptions {
+  Placement placement = Placement::Faces;
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's

@@ -51,7 +51,7 @@ struct JudgeOptions {
 };
 
 /// Features of the surface that the mesh represents. Samples the curves every edge_tolerance.
-FeatureRecovery measure_features(const HexMesh& mesh, const TriMesh& surface,
+FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& surface,
                                  const FeatureGraph& features, const JudgeOptions& options);
 
 struct Verdict {
