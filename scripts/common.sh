@@ -4,6 +4,9 @@ ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 DEPS="$ROOT/build/deps"          # packages from PyPI, unpacked here and nowhere else
 JOBS="${HEXWRIGHT_JOBS:-$(nproc)}"
 
+# is_installed PACKAGE, of Debian or Ubuntu
+is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
 say() { printf '\n== %s\n' "$*"; }
 
 # The newer of the system's cmake and the one unpacked under build/deps.

@@ -2,7 +2,7 @@
 //
 // Arguments of every case: shape (0 sphere, 1 gyroid, 2 random points), depth, threads. Counters:
 // input leaves per second, leaves in and out, peak memory of the process per output leaf. The cases
-// "growth" run from 10^4 to 10^8 leaves; tools/growth_table.py makes a table of them.
+// "growth" run from 10^4 to 10^8 leaves; `lab/run.py growth` makes a table of them.
 #include <cmath>
 #include <cstdio>
 #include <cstring>

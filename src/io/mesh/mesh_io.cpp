@@ -1,6 +1,8 @@
 // Reads and writes hex and tet meshes: finds the format, checks what comes in and goes out.
 #include "hexwright/io/mesh_io.h"
 
+#include <algorithm>
+
 #include "hexwright/io/atomic_file.h"
 
 #include "io/mesh/volume_file.h"
@@ -11,6 +13,39 @@
 namespace hexwright {
 namespace io {
 namespace {
+
+/// A row of the table of formats; adding a format means adding its row and its file.
+struct MeshFormat {
+  const char* name;
+  const char* extension;
+  VolumeFile (*read)(const VolumeSource&);  ///< null: only written
+  std::string (*write)(const HexMesh&, const WriteHexOptions&);
+};
+
+constexpr MeshFormat kFormats[] = {
+    {"VTU", ".vtu", read_vtu, vtu_bytes},
+    {"legacy VTK", ".vtk", read_vtk_legacy, vtk_legacy_bytes},
+    {"MEDIT", ".mesh", read_medit,
+     [](const HexMesh& mesh, const WriteHexOptions&) { return medit_text(mesh); }},
+    {"Gmsh", ".msh", nullptr,
+     [](const HexMesh& mesh, const WriteHexOptions&) { return gmsh_text(mesh); }},
+    {"Abaqus", ".inp", nullptr,
+     [](const HexMesh& mesh, const WriteHexOptions&) { return abaqus_text(mesh); }}};
+
+const MeshFormat* find_format(const std::string& extension) {
+  const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                   [&](const MeshFormat& f) { return extension == f.extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+/// "VTU .vtu, legacy VTK .vtk, ..." of the formats that are read, or of all.
+std::string list_formats(bool only_read) {
+  std::string list;
+  for (const MeshFormat& f : kFormats)
+    if (f.read || !only_read)
+      list += (list.empty() ? "" : ", ") + std::string(f.name) + " " + f.extension;
+  return list;
+}
 
 /// The whole file is in memory while it is parsed: readers work on views into it.
 VolumeFile read_volume_file(const std::filesystem::path& path) {
@@ -58,12 +93,13 @@ VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& exte
   if (bytes.starts_with("# vtk DataFile")) return read_vtk_legacy(source);
   const std::string_view first = TextScanner(bytes, source.name).token();
   if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(source);
-  if (first == "MeshVersionFormatted" || extension == ".mesh") return read_medit(source);
-  if (extension == ".vtk") return read_vtk_legacy(source);
-  if (extension == ".vtu") return read_vtu(source);
+  if (first == "MeshVersionFormatted") return read_medit(source);
+  const MeshFormat* format = find_format(extension);
+  if (format && format->read) return format->read(source);
   throw bad_file(source.name,
                  "neither the content nor the extension is that of a known volume mesh format; "
-                 "give a MEDIT .mesh, legacy .vtk or .vtu file");
+                 "give a file of one of these: " +
+                     list_formats(true));
 }
 
 /// Later kinds overwrite earlier ones: a corner lies on edges and quads too.
@@ -109,25 +145,21 @@ void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
                     const WriteHexOptions& options) {
   io::check_writable(mesh, options);
   const std::string extension = io::lower_extension(path);
-  if (extension == ".vtu")
-    write_file_atomically(path, io::vtu_bytes(mesh, options));
-  else if (extension == ".vtk")
-    write_file_atomically(path, io::vtk_legacy_bytes(mesh, options));
-  else if (extension == ".mesh")
-    write_file_atomically(path, io::medit_text(mesh));
-  else if (extension == ".msh")
-    write_file_atomically(path, io::gmsh_text(mesh));
-  else if (extension == ".inp")
-    write_file_atomically(path, io::abaqus_text(mesh));
-  else
+  const io::MeshFormat* format = io::find_format(extension);
+  if (!format)
     throw Error(
         ErrorCode::BadArgument,
-        "cannot write a hex mesh as '" + extension + "'; use .vtu, .vtk, .mesh, .msh or .inp",
+        "cannot write a hex mesh as '" + extension + "'; use one of " + io::list_formats(false),
         path.string());
+  write_file_atomically(path, format->write(mesh, options));
 }
 
 const std::vector<std::string>& hex_mesh_extensions() {
-  static const std::vector<std::string> kExtensions = {".vtu", ".vtk", ".mesh", ".msh", ".inp"};
+  static const std::vector<std::string> kExtensions = [] {
+    std::vector<std::string> list;
+    for (const io::MeshFormat& f : io::kFormats) list.emplace_back(f.extension);
+    return list;
+  }();
   return kExtensions;
 }
 

@@ -1,27 +1,29 @@
-#!/usr/bin/env python3
-"""Turns the growth cases of complete_bench into the Markdown table of docs/results/growth.md.
+"""Growth of balance and pairing with size (docs/results/growth.md), from the growth cases of complete_bench (preset `bench`).
 
-Example, on a machine that does nothing else:
-  build/release/bench/complete_bench --benchmark_filter=^growth --benchmark_repetitions=3 --benchmark_out=growth.json
-  tools/growth_table.py growth.json -o docs/results/growth.md
-
-Of repeated runs the fastest counts. Growth is fitted by least squares to log time over log n, n = leaves in + leaves
-out, and set beside what n and n log n would give over the same sizes.
+To be run on a machine that does nothing else. Of repeated runs the fastest counts. Growth is fitted by least squares to log
+time over log n, n = leaves in + leaves out, and set beside what n and n log n would give over the same sizes.
 """
-import argparse
-import json
+import io
 import math
 from collections import defaultdict
-from pathlib import Path
 
+from pool import Job
+
+PAGE = "growth.md"
+DATA = None
+SECONDS = 7200
 SHAPES = ["sphere", "gyroid", "points"]
 MODES = ["balance", "sweep", "descent"]
 FIT_FROM = 1e5  # cells; below, fixed costs count
 
 
-def read_runs(path):
+def jobs(args):
+    options = args.options or ["--benchmark_repetitions=3"]
+    return [Job("growth", [["{bench}", "--benchmark_filter=^growth", "--benchmark_out={out}/report.json", *options]])]
+
+
+def read_runs(data):
     """{(shape, depth): {(mode, threads): {time in ms, leaves_in, leaves_out, bytes}}} with the fastest of repeated runs."""
-    data = json.loads(path.read_text())
     runs = defaultdict(dict)
     for run in data["benchmarks"]:
         if run.get("run_type") == "aggregate" or not run["name"].startswith("growth/"):
@@ -78,31 +80,23 @@ def write_fits(runs, out):
             out.write(f"| {name} | {threads} | " + " | ".join(cells + [limit]) + " |\n")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("json", type=Path)
-    parser.add_argument("-o", "--output", type=Path, required=True)
-    args = parser.parse_args()
-    context, runs = read_runs(args.json)
-    with args.output.open("w") as out:
-        out.write("# Growth of balance and pairing with size\n\n")
-        out.write("Made by `tools/growth_table.py` from `complete_bench --benchmark_filter=^growth --benchmark_repetitions=3"
-                  " --benchmark_out=growth.json` "
-                  f"({context['num_cpus']} processors at {context['mhz_per_cpu'] / 1000:.1f} GHz; load when it began: "
-                  f"{', '.join(f'{x:.1f}' for x in context.get('load_avg', []))}). "
-                  "Wall times in ms with one and with two threads and their ratio. Balance is strong, without pairing; "
-                  "sweep and descent are blocks under weak balance. Speed: million input leaves per second in the sweep, one "
-                  "thread. Descent: its time over the sweep's. Memory: peak bytes per output leaf in the sweep, the input "
-                  "and the output included.\n\n")
-        head = ["grid", "leaves in", "leaves out"]
-        for mode in MODES:
-            head += [f"{mode} 1", "2", "ratio"]
-        head += ["M leaves/s", "descent / sweep", "B/leaf"]
-        out.write("| " + " | ".join(head) + " |\n|---|" + "--:|" * (len(head) - 1) + "\n")
-        for (shape, _), case in runs.items():
-            out.write(row_of(shape, case))
-        write_fits(runs, out)
-
-
-if __name__ == "__main__":
-    main()
+def page(records, args):
+    context, runs = read_runs(records[0]["steps"][0]["report"])
+    out = io.StringIO()
+    out.write("# Growth of balance and pairing with size\n\n")
+    out.write(f"Made by `{args.command}` "
+              f"({context['num_cpus']} processors at {context['mhz_per_cpu'] / 1000:.1f} GHz; load when it began: "
+              f"{', '.join(f'{x:.1f}' for x in context.get('load_avg', []))}). "
+              "Wall times in ms with one and with two threads and their ratio. Balance is strong, without pairing; "
+              "sweep and descent are blocks under weak balance. Speed: million input leaves per second in the sweep, one "
+              "thread. Descent: its time over the sweep's. Memory: peak bytes per output leaf in the sweep, the input "
+              "and the output included.\n\n")
+    head = ["grid", "leaves in", "leaves out"]
+    for mode in MODES:
+        head += [f"{mode} 1", "2", "ratio"]
+    head += ["M leaves/s", "descent / sweep", "B/leaf"]
+    out.write("| " + " | ".join(head) + " |\n|---|" + "--:|" * (len(head) - 1) + "\n")
+    for (shape, _), case in runs.items():
+        out.write(row_of(shape, case))
+    write_fits(runs, out)
+    return out.getvalue()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a pair of tetrahedral meshes whose polycube map compresses the part that has the detail.
 
-Usage: make_polycube_pair.py OUT_STEM [--refine N]
+Usage: polycube_pair.py OUT_STEM [--refine N]
 
 Writes OUT_STEM_object.mesh and OUT_STEM_polycube.mesh (MEDIT). The polycube is a 4 x 4 x 2 base with a post of 1 x 1 x 1.5 on
 it. In the object the post has become a head three times as wide and four times as high, with four fins around it: one unit of

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a box of equal cubes around a surface: a background for `hexwright fit` that no sizing has touched.
 
-Example: tools/uniform_background.py part.off 40 background.mesh && hexwright fit background.mesh part.off -o part.vtu
+Example: lab/inputs/uniform_background.py part.off 40 background.mesh && hexwright fit background.mesh part.off -o part.vtu
 
 `cells` cubes lie along the longest side of the surface's bounding box; two more on each side cover it. The box is set
 off the surface's symmetry planes, as grids in practice are.
