@@ -13,11 +13,14 @@
 #include <vector>
 
 #include "hexwright/base/parallel.h"
+#include "hexwright/mesh/hex_shape.h"
 
 #include "dual/quality_of_hex.h"
 #include "relax/vertex_newton.h"
 
 namespace hexwright::dual {
+
+using namespace relax;
 
 namespace {
 
@@ -143,8 +146,9 @@ class PositionOptimizer {
   }
 
   void measure() {
-    parallel_for(mesh_.num_hexes(),
-                 [&](std::size_t h) { quality_[HexId(h)] = scaled_jacobian(mesh_, HexId(h)); });
+    parallel_for(mesh_.num_hexes(), [&](std::size_t h) {
+      quality_[HexId(h)] = scaled_jacobian(mesh_.corners(HexId(h)));
+    });
   }
 
   // Collects, by colour, the vertices of the hexes below `goal` and of `num_rings - 1` layers of

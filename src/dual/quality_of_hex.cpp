@@ -3,37 +3,9 @@
 #include "dual/quality_of_hex.h"
 
 #include "hexwright/base/parallel.h"
+#include "hexwright/mesh/hex_shape.h"
 
 namespace hexwright::dual {
-
-namespace {
-
-// Determinant of the edges at a corner, and the product of their squared lengths.
-struct Corner {
-  double det, lengths_sq;
-};
-
-// kHexCornerNeighbors is ordered so that a right-handed corner has a positive determinant.
-Corner corner_of(const std::array<Vec3, 8>& p, int lv) {
-  const auto& n = kHexCornerNeighbors[lv];
-  const Vec3 e0 = p[n[0]] - p[lv], e1 = p[n[1]] - p[lv], e2 = p[n[2]] - p[lv];
-  return {det(e0, e1, e2), norm_sq(e0) * norm_sq(e1) * norm_sq(e2)};
-}
-
-}  // namespace
-
-// The least over the corners of det / product of edge lengths: 1 for a cube, <= 0 when inverted. An
-// edge of length zero counts as inverted.
-double scaled_jacobian(const HexMesh& mesh, HexId h) {
-  const auto p = mesh.corners(h);
-  double least = 1;
-  for (int lv = 0; lv < 8; ++lv) {
-    const Corner c = corner_of(p, lv);
-    const double lengths = std::sqrt(c.lengths_sq);
-    least = std::min(least, lengths > 0 ? c.det / lengths : -1.0);
-  }
-  return least;
-}
 
 // The power mean with exponent -8, smooth where the least is not: within 8^(1/8) = 1.3 of it. See
 // docs/algorithms/dual.md, "Raising the mean". Square roots only: pow() differs between platforms.
@@ -41,7 +13,7 @@ double soft_scaled_jacobian(const HexMesh& mesh, HexId h) {
   const auto p = mesh.corners(h);
   double mean = 0;  // of s^-8
   for (int lv = 0; lv < 8; ++lv) {
-    const Corner c = corner_of(p, lv);
+    const CornerShape c = corner_shape(p, lv);
     if (c.det <= 0) return 0;
     const double inverse_sq = c.lengths_sq / (c.det * c.det);
     const double inverse_4th = inverse_sq * inverse_sq;
@@ -54,7 +26,7 @@ MeshQuality measure_quality(const HexMesh& mesh) {
   const auto map = [&](std::size_t begin, std::size_t end) {
     MeshQuality part;
     for (std::size_t h = begin; h < end; ++h) {
-      const double s = scaled_jacobian(mesh, HexId(h));
+      const double s = scaled_jacobian(mesh.corners(HexId(h)));
       part.min = std::min(part.min, s);
       part.avg += s;
       part.num_inverted += s <= 0;

@@ -1,8 +1,6 @@
 // Quality of one hex, and its summary over a mesh.
 //
-// Based on: Stimpson et al., "The Verdict Geometric Quality Library", SAND2007-1751, section 6.10
-// (scaled Jacobian); Johnen, Weill, Remacle 2017 (positivity).
-// Differs: the scaled Jacobian counts the 8 corners, without Verdict's ninth frame at the centre.
+// Based on: Johnen, Weill, Remacle 2017 (positivity).
 #include "hexwright/quality/hex_quality.h"
 
 #include <algorithm>
@@ -14,29 +12,6 @@
 
 namespace hexwright {
 namespace {
-
-// A corner's edge vector as an edge of kHexEdges and the direction to run it in.
-struct SignedEdge {
-  std::uint8_t edge = 0;
-  double sign = 1;
-};
-using CornerEdges = std::array<std::array<SignedEdge, 3>, 8>;
-
-constexpr CornerEdges make_corner_edges() {
-  CornerEdges table{};
-  for (std::size_t lv = 0; lv < 8; ++lv)
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t e = 0; e < 12; ++e) {
-        const int to = kHexCornerNeighbors[lv][k];
-        const int from = static_cast<int>(lv);
-        if (kHexEdges[e] == std::array<int, 2>{from, to})
-          table[lv][k] = {static_cast<std::uint8_t>(e), 1.0};
-        if (kHexEdges[e] == std::array<int, 2>{to, from})
-          table[lv][k] = {static_cast<std::uint8_t>(e), -1.0};
-      }
-  return table;
-}
-constexpr CornerEdges kCornerEdges = make_corner_edges();
 
 // Rounding error allowed for in the Bezier coefficients, relative to the product of the longest
 // edges.
@@ -107,35 +82,6 @@ QualitySummary combine(QualitySummary a, const QualitySummary& b) {
 }
 
 }  // namespace
-
-double scaled_jacobian(const std::array<Vec3, 8>& p) {
-  std::array<Vec3, 12> unit;  // every edge normalised once, and used by both of its corners
-  for (std::size_t e = 0; e < 12; ++e) {
-    unit[e] = p[kHexEdges[e][1]] - p[kHexEdges[e][0]];
-    const double length = norm(unit[e]);
-    if (!(length > 0)) return -1;
-    unit[e] *= 1 / length;
-  }
-  double least = 1;
-  for (const auto& c : kCornerEdges) {
-    const double value = det(unit[c[0].edge], unit[c[1].edge], unit[c[2].edge]);
-    least = std::min(least, c[0].sign * c[1].sign * c[2].sign * value);
-  }
-  return std::max(least, -1.0);
-}
-
-double corner_scaled_jacobian(const std::array<Vec3, 8>& p, int lv) {
-  const auto& n = kHexCornerNeighbors[static_cast<std::size_t>(lv)];
-  const Vec3& origin = p[static_cast<std::size_t>(lv)];
-  std::array<Vec3, 3> unit;
-  for (std::size_t k = 0; k < 3; ++k) {
-    unit[k] = p[static_cast<std::size_t>(n[k])] - origin;
-    const double length = norm(unit[k]);
-    if (!(length > 0)) return -1;
-    unit[k] *= 1 / length;
-  }
-  return std::clamp(det(unit[0], unit[1], unit[2]), -1.0, 1.0);
-}
 
 Positivity check_positivity(const std::array<Vec3, 8>& p) {
   const JacobianBezier b = compute_jacobian_bezier(p);

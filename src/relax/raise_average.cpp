@@ -11,6 +11,7 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/mesh/hex_shape.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "relax/finish.h"
@@ -18,7 +19,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 double integer_power(double x, int n) {
@@ -31,13 +32,9 @@ double integer_power(double x, int n) {
 // The mean over the corners of J^-2p. No roots are needed: J^-2 is a ratio of squares.
 double mean_power(const std::array<Vec3, 8>& corners, int power) {
   double sum = 0;
-  for (std::size_t lv = 0; lv < 8; ++lv) {
-    const auto& n = kHexCornerNeighbors[lv];
-    std::array<Vec3, 3> e;
-    for (std::size_t k = 0; k < 3; ++k)
-      e[k] = corners[static_cast<std::size_t>(n[k])] - corners[lv];
-    const double d = det(e[0], e[1], e[2]);
-    sum += integer_power(norm_sq(e[0]) * norm_sq(e[1]) * norm_sq(e[2]) / (d * d), power);
+  for (int lv = 0; lv < 8; ++lv) {
+    const CornerShape c = corner_shape(corners, lv);
+    sum += integer_power(c.lengths_sq / (c.det * c.det), power);
   }
   return sum / 8;
 }
@@ -85,4 +82,4 @@ void raise_average(FitState& state, const FitTarget& target, const AverageOption
   snap_to_targets(state, target, least);
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

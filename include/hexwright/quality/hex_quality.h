@@ -1,8 +1,7 @@
 // Geometric quality of hexahedra.
 //
-// Based on: Stimpson, Ernst, Knupp, Pebay, Thompson, "The Verdict Geometric Quality Library",
-// SAND2007-1751 (scaled Jacobian); Johnen, Weill, Remacle, "Robust and efficient validation of the
-// linear hexahedral element", 2017 (Bezier).
+// Based on: Johnen, Weill, Remacle, "Robust and efficient validation of the linear hexahedral
+// element", 2017 (Bezier).
 #pragma once
 
 #include <array>
@@ -10,16 +9,9 @@
 #include <vector>
 
 #include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/mesh/hex_shape.h"
 
 namespace hexwright {
-
-/// Least scaled Jacobian over the 8 corners: det of the unit edge vectors, in [-1, 1]; -1 when an
-/// edge has no length. (Verdict adds the centre's frame; the published minima count the corners.
-/// See docs/algorithms/quality.md.)
-double scaled_jacobian(const std::array<Vec3, 8>& p);
-
-/// Scaled Jacobian at one corner.
-double corner_scaled_jacobian(const std::array<Vec3, 8>& p, int lv);
 
 /// Whether the Jacobian determinant of the trilinear map is proven positive everywhere inside the
 /// element, by its Bezier coefficients (subdivided a bounded number of times). Undecided means

@@ -10,6 +10,9 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryQuads;
+using relax::FitState;
+
 struct FeatureMarks {
   std::vector<LabeledEdge> edges;               ///< on curves, sorted by their ascending vertices
   IdVector<QuadId, RegionId> quad_to_region;    ///< per FitState::quads

@@ -13,6 +13,8 @@
 #include "fit/sheets/quad_fans.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kDepth = 0.3;

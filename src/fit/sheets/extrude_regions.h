@@ -5,6 +5,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// Which sheet each region belongs to; sheets are numbered from 0.
 struct SheetChoice {
   static constexpr int kNone = -1;

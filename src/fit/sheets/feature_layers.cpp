@@ -5,6 +5,8 @@
 #include <cmath>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 double angle_at(const FitState& state, const std::array<VertId, 4>& quad, std::size_t k) {

@@ -13,6 +13,10 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryEdgeId;
+using relax::BoundaryGraph;
+using relax::FitState;
+
 /// A boundary graph with the present marks.
 struct MarkedGraph {
   explicit MarkedGraph(const FitState& state, const FeatureMarks& marks);

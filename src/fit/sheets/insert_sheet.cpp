@@ -4,23 +4,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "hexwright/mesh/hex_shape.h"
+
 namespace hexwright::fitting {
 namespace {
 
 constexpr double kShrink = 0.6;
 constexpr int kMaxShrinks = 60;
-
-double scaled_jacobian_at(const HexMesh& mesh, HexId h, std::size_t lv) {
-  const auto& hex = mesh.hexes[h];
-  const Vec3& o = mesh.positions[hex[lv]];
-  std::array<Vec3, 3> e;
-  double lengths = 1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    e[k] = mesh.positions[hex[static_cast<std::size_t>(kHexCornerNeighbors[lv][k])]] - o;
-    lengths *= norm(e[k]);
-  }
-  return lengths > 0 ? det(e[0], e[1], e[2]) / lengths : -1;
-}
 
 class Insertion {
  public:
@@ -96,9 +86,7 @@ class Insertion {
   }
 
   bool is_good(HexId h, double min_jacobian) const {
-    for (std::size_t lv = 0; lv < 8; ++lv)
-      if (!(scaled_jacobian_at(mesh_, h, lv) > min_jacobian)) return false;
-    return true;
+    return scaled_jacobian(mesh_.corners(h)) > min_jacobian;
   }
 
   /// Shrinks the offsets around hexes that are not good. Returns the sheet's vertices at hexes that

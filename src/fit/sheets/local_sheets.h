@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// What local sheets work on, besides the mesh and its marks.
 struct LocalSheetInput {
   const FeatureGraph& features;

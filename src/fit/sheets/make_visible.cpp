@@ -7,6 +7,8 @@
 #include "fit/carve/visible_normal.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kEnough = 0.1;          // cosine to stop at

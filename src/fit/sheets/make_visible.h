@@ -6,6 +6,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// Moves those of the sheet's vertices `verts` from which no direction d has n . d >=
 /// `least_cosine` for the normals n of all its faces there, each to where one does if such a place
 /// is near, while the hexes around stay valid and the sheet's other vertices are seen no worse than

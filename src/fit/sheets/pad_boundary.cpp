@@ -9,6 +9,8 @@
 
 namespace hexwright::fitting {
 
+using namespace relax;
+
 namespace {
 
 // The sheet along the faces between the hexes `takes_copy` and what is beyond them; absent when

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kDepth = 0.3;

@@ -6,6 +6,9 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryEdgeId;
+using relax::FitState;
+
 /// Squeezed quads of one region that are treated together.
 struct PillowJob {
   RegionId region;

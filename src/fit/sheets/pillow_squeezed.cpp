@@ -9,6 +9,8 @@
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr int kMaxBatches = 60;

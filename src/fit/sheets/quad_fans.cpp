@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using namespace relax;
+
 QuadFans find_quad_fans(const MarkedGraph& marked, VertId v, FunctionRef<bool(QuadId)> is_inside) {
   const auto quads = marked.graph.quads(v);
   UnionFind parts(quads.size());
