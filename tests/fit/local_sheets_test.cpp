@@ -8,8 +8,8 @@
 #include "boundary_fixtures.h"
 #include "fit/carve/set_check.h"
 #include "fit/carve/visible_normal.h"
-#include "fit/sheets/extrude_regions.h"
-#include "fit/sheets/make_visible.h"
+#include "fit/sheets/pad.h"
+#include "fit/sheets/visible.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -40,17 +40,17 @@ struct Smooth {
     return find_padding_needs(state, marks, MarkedGraph(state, marks), convex_share, groups);
   }
   /// Wraps the hexes that satisfy a predicate of their centres, covering all their boundary quads.
-  WrapOutcome wrap(const std::function<bool(const Vec3&)>& is_in) {
-    WrapChoice choice;
+  PadOutcome wrap(const std::function<bool(const Vec3&)>& is_in) {
+    SheetSets choice;
     choice.num_sheets = 1;
     for (HexId h : state.mesh.hexes.ids()) {
       Vec3 center;
       for (const Vec3& p : state.mesh.corners(h)) center += p * 0.125;
-      choice.hex_to_sheet.push_back(is_in(center) ? 0 : SheetChoice::kNone);
+      choice.hex_to_sheet.push_back(is_in(center) ? 0 : SheetSets::kNone);
     }
     for (const HexFace& face : state.quad_face)
       choice.quad_to_sheet.push_back(choice.hex_to_sheet[face.hex]);
-    return wrap_hexes(state, marks, features, choice);
+    return pad(state, marks, features, choice);
   }
   FitState state;
   FeatureMarks marks;
@@ -64,7 +64,7 @@ HexMesh terrace(int length, int width) {
   return test::voxels(length, [=](const Vec3& p) { return p.z < 2 || (p.z < 3 && p.x < width); });
 }
 
-TEST(WrapHexes, AddsOneHexPerFaceOfTheSet) {
+TEST(PadHexes, AddsOneHexPerFaceOfTheSet) {
   // Inside, at a face, at an edge, at a corner: what is covered and what is inside all count.
   for (const Vec3& corner : {Vec3{1, 1, 1}, Vec3{0, 1, 1}, Vec3{0, 0, 1}, Vec3{0, 0, 0}}) {
     Smooth s(test::box_hex_mesh(3, 3, 3));
@@ -80,7 +80,7 @@ TEST(WrapHexes, AddsOneHexPerFaceOfTheSet) {
   }
 }
 
-TEST(WrapHexes, RefusesASetThatTouchesItselfAtAnEdge) {
+TEST(PadHexes, RefusesASetThatTouchesItselfAtAnEdge) {
   Smooth s(test::box_hex_mesh(4, 4, 4));
   const HexMesh before = s.state.mesh;
   const auto outcome = s.wrap([](const Vec3& p) {
@@ -93,7 +93,7 @@ TEST(WrapHexes, RefusesASetThatTouchesItselfAtAnEdge) {
   EXPECT_EQ(s.state.mesh.positions, before.positions);
 }
 
-TEST(WrapHexes, IsValidForRandomBoxes) {
+TEST(PadHexes, IsValidForRandomBoxes) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
     Vec3 lo, hi;
@@ -131,10 +131,9 @@ Sheet sheet_at(const FitState& state, VertId v) {
   for (const HexFace& face : state.quad_face) {
     const auto quad = face_verts(state.mesh, face);
     if (std::find(quad.begin(), quad.end(), v) == quad.end()) continue;
-    sheet.quads.push_back(quad);
-    sheet.behind.push_back(face.hex);
+    sheet.add_face(state.mesh, face);
   }
-  sheet.verts = sheet_verts(sheet.quads);
+  sheet.collect_verts();
   return sheet;
 }
 

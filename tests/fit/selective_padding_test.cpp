@@ -6,7 +6,7 @@
 
 #include "boundary_fixtures.h"
 #include "fit/curves/curve_convexity.h"
-#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
 #include "fit/sheets/padding_groups.h"
 #include "fit/sheets/pillow_failed.h"
@@ -206,50 +206,49 @@ struct TwoFaces {
       state->feature_point[v] = s.padded.feature_point[v];
       if (one_is_held && state->mesh.positions[v] == Vec3{7, 3, 3}) state->move[v] = MoveIn::Plane;
     }
-    choice.num_sheets = 2;
-    choice.region_to_sheet.assign(6, SheetChoice::kNone);
+    sets.num_sheets = 2;
+    sets.quad_to_sheet.assign(state->quads.size(), SheetSets::kNone);
     for (QuadId q : marks.quad_to_region.ids()) {
       Vec3 center;
       for (VertId v : state->quads[q.index()]) center += state->mesh.positions[v] * 0.25;
-      const RegionId region = marks.quad_to_region[q];
-      if (center.x == 1) choice.region_to_sheet[region] = 0;
-      if (center.x == 7) choice.region_to_sheet[region] = 1;
+      if (center.x == 1) sets.quad_to_sheet[q] = 0;
+      if (center.x == 7) sets.quad_to_sheet[q] = 1;
     }
   }
-  std::vector<char> extrude() { return extrude_regions(*state, marks, features, choice); }
+  std::vector<char> insert() { return pad(*state, marks, features, sets).is_done; }
   std::optional<FitState> state;
   FeatureMarks marks;
   FeatureGraph features;
-  SheetChoice choice;
+  SheetSets sets;
 };
 
-TEST(ExtrudeRegions, InsertsSheetsTogether) {
+TEST(PadQuads, InsertsSheetsTogether) {
   TwoFaces faces(false);
-  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 1}));
+  EXPECT_EQ(faces.insert(), (std::vector<char>{1, 1}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 72u);
   EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
 }
 
-TEST(ExtrudeRegions, LeavesOutTheSheetThatDoesNotFit) {
+TEST(PadQuads, LeavesOutTheSheetThatDoesNotFit) {
   TwoFaces faces(true), alone(true);
-  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 0}));
+  EXPECT_EQ(faces.insert(), (std::vector<char>{1, 0}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 36u);
   EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
   // The other sheet is as if it had been alone.
-  for (int& sheet : alone.choice.region_to_sheet)
-    if (sheet == 1) sheet = SheetChoice::kNone;
-  alone.choice.num_sheets = 1;
-  EXPECT_EQ(alone.extrude(), std::vector<char>{1});
+  for (int& sheet : alone.sets.quad_to_sheet)
+    if (sheet == 1) sheet = SheetSets::kNone;
+  alone.sets.num_sheets = 1;
+  EXPECT_EQ(alone.insert(), std::vector<char>{1});
   EXPECT_EQ(alone.state->mesh.hexes, faces.state->mesh.hexes);
   EXPECT_EQ(alone.state->mesh.positions, faces.state->mesh.positions);
 }
 
-TEST(ExtrudeRegions, ChangesNothingWhenNoSheetFits) {
+TEST(PadQuads, ChangesNothingWhenNoSheetFits) {
   TwoFaces faces(true);
-  for (int& sheet : faces.choice.region_to_sheet) sheet = sheet == 1 ? 0 : SheetChoice::kNone;
-  faces.choice.num_sheets = 1;
+  for (int& sheet : faces.sets.quad_to_sheet) sheet = sheet == 1 ? 0 : SheetSets::kNone;
+  faces.sets.num_sheets = 1;
   const HexMesh before = faces.state->mesh;
-  EXPECT_EQ(faces.extrude(), std::vector<char>{0});
+  EXPECT_EQ(faces.insert(), std::vector<char>{0});
   EXPECT_EQ(faces.state->mesh.hexes, before.hexes);
   EXPECT_EQ(faces.state->mesh.positions, before.positions);
 }

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "fit/curves/feature_marks.h"
-#include "fit/sheets/insert_sheet.h"
 
 namespace hexwright::fitting {
 
@@ -28,12 +27,6 @@ std::vector<QuadId> find_squeezed_quads(const FitState& state, const MarkedGraph
 /// The same for one quad: its corners that are squeezed, as bits of the local vertices.
 unsigned squeezed_corners(const FitState& state, const MarkedGraph& marked, QuadId q,
                           double corner_angle);
-
-/// Inserts a sheet between a set of hexes and the others. At the sheet's rim the originals keep
-/// their place on curves; the copies on the set's side join the region of the set's quads.
-/// False, with nothing changed, when no valid place for the copies is found.
-bool insert_behind_set(FitState& state, FeatureMarks& marks, const MarkedGraph& marked,
-                       std::span<const char> is_in_set, const Sheet& sheet);
 
 struct PillowOptions {
   bool whole_regions = true;  ///< pillow all of a region with squeezed quads; else only around them

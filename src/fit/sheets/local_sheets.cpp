@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/pad.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -50,10 +50,10 @@ class SetMaker {
   const std::vector<PaddingNeed>& needs() const { return needs_; }
 
   /// Per need: the sheet around its hexes, or none.
-  std::vector<int> served_by(const WrapChoice& choice) const {
+  std::vector<int> served_by(const SheetSets& choice) const {
     std::vector<int> sheets;
     for (const PaddingNeed& need : needs_) {
-      int sheet = SheetChoice::kNone;
+      int sheet = SheetSets::kNone;
       for_each_hex_in_need(state_, need.a, need.b,
                            [&](HexId h) { sheet = std::max(sheet, choice.hex_to_sheet[h]); });
       sheets.push_back(sheet);
@@ -74,10 +74,10 @@ class SetMaker {
 
   /// Sets of the groups chosen that share no vertex. Of sets that touch those of the first group
   /// stay, the others are left for another time.
-  WrapChoice choose(const IdVector<GroupId, char>& is_chosen) {
-    WrapChoice choice;
-    choice.hex_to_sheet.assign(state_.mesh.num_hexes(), SheetChoice::kNone);
-    choice.quad_to_sheet.assign(state_.quads.size(), SheetChoice::kNone);
+  SheetSets choose(const IdVector<GroupId, char>& is_chosen) {
+    SheetSets choice;
+    choice.hex_to_sheet.assign(state_.mesh.num_hexes(), SheetSets::kNone);
+    choice.quad_to_sheet.assign(state_.quads.size(), SheetSets::kNone);
     std::vector<char> is_used(state_.num_verts(), 0);
     for (std::size_t i = 0; i < needs_.size(); ++i) {
       const GroupId g = needs_[i].group;
@@ -138,7 +138,7 @@ class SetMaker {
   }
 
   /// The collected hexes that are connected with the seed by vertices; they stop being collected.
-  void add_component(GroupId g, HexId seed, std::vector<char>& is_used, WrapChoice& choice) {
+  void add_component(GroupId g, HexId seed, std::vector<char>& is_used, SheetSets& choice) {
     std::vector<HexId> hexes{seed};
     collected_by_[seed] = {};
     bool is_free = true;
@@ -205,9 +205,9 @@ IdVector<GroupId, int> insert_local_sheets(FitState& state, FeatureMarks& marks,
     const bool is_done =
         std::all_of(num_left.begin(), num_left.end(), [](int n) { return n == 0; });
     if (is_done || !is_progress || round == kMaxRounds) return num_left;
-    const WrapChoice choice = sets.choose(is_chosen);
+    const SheetSets choice = sets.choose(is_chosen);
     const auto served = sets.served_by(choice);
-    const WrapOutcome outcome = wrap_hexes(state, marks, input.features, choice);
+    const PadOutcome outcome = pad(state, marks, input.features, choice);
     is_progress = false;
     for (std::size_t i = 0; i < served.size(); ++i) {
       if (served[i] < 0 || outcome.is_done[static_cast<std::size_t>(served[i])] == 0) continue;

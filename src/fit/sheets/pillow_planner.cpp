@@ -4,11 +4,6 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
-namespace {
-
-constexpr double kDepth = 0.3;
-
-}  // namespace
 
 PillowPlanner::PillowPlanner(const FitState& state, const FeatureMarks& marks,
                              const MarkedGraph& marked, const PillowOptions& options)
@@ -21,12 +16,11 @@ PillowPlanner::PillowPlanner(const FitState& state, const FeatureMarks& marks,
       is_selected_(state.quads.size(), 0),
       is_sheet_vert_(state.num_verts(), 0) {}
 
-/// The job's set with the first extent that works; empty hexes when none does.
-PillowSet PillowPlanner::plan(const PillowJob& job) {
+std::vector<HexId> PillowPlanner::plan(const PillowJob& job) {
   if (options_.whole_regions) return try_quads(job, quads_of_region(job.region));
   for (int ring : {options_.ring, 0, options_.ring + 1, options_.ring + 2}) {
-    PillowSet set = try_quads(job, grow(job, ring));
-    if (!set.hexes.empty()) return set;
+    std::vector<HexId> hexes = try_quads(job, grow(job, ring));
+    if (!hexes.empty()) return hexes;
   }
   return {};
 }
@@ -53,34 +47,26 @@ std::vector<QuadId> PillowPlanner::quads_of_region(RegionId region) const {
   return quads;
 }
 
-PillowSet PillowPlanner::try_quads(const PillowJob& job, const std::vector<QuadId>& quads) {
-  PillowSet set;
+std::vector<HexId> PillowPlanner::try_quads(const PillowJob& job,
+                                            const std::vector<QuadId>& quads) {
+  std::vector<HexId> hexes;
   for (QuadId q : quads) {
-    set.hexes.push_back(state_.quad_face[q.index()].hex);
+    hexes.push_back(state_.quad_face[q.index()].hex);
     is_selected_[q.index()] = 1;
   }
-  std::sort(set.hexes.begin(), set.hexes.end());
-  set.hexes.erase(std::unique(set.hexes.begin(), set.hexes.end()), set.hexes.end());
-  for (HexId h : set.hexes) is_in_[h.index()] = 1;
-  collect_faces(set);
-  for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 1;
-  const bool is_good = splits_a_squeezed_vert(job) && keeps_marks(job, set) && find_directions(set);
-  for (VertId v : set.sheet.verts) is_sheet_vert_[v.index()] = 0;
-  for (HexId h : set.hexes) is_in_[h.index()] = 0;
+  std::sort(hexes.begin(), hexes.end());
+  hexes.erase(std::unique(hexes.begin(), hexes.end()), hexes.end());
+  for (HexId h : hexes) is_in_[h.index()] = 1;
+  Sheet sheet;
+  sheet.add_inner_faces(state_.mesh, state_.neighbors, hexes, is_in_);
+  sheet.collect_verts();
+  for (VertId v : sheet.verts) is_sheet_vert_[v.index()] = 1;
+  const bool is_good = splits_a_squeezed_vert(job) && keeps_marks(job, sheet) && can_pass(sheet);
+  for (VertId v : sheet.verts) is_sheet_vert_[v.index()] = 0;
+  for (HexId h : hexes) is_in_[h.index()] = 0;
   for (QuadId q : quads) is_selected_[q.index()] = 0;
-  return is_good ? set : PillowSet{};
-}
-
-void PillowPlanner::collect_faces(PillowSet& set) const {
-  for (HexId h : set.hexes)
-    for (int lf = 0; lf < 6; ++lf) {
-      const HexId other = state_.neighbors.neighbor[h][static_cast<std::size_t>(lf)];
-      if (!other.is_valid() || is_in_[other.index()]) continue;
-      set.sheet.quads.push_back(face_verts(state_.mesh, {h, lf}));
-      set.sheet.behind.push_back(h);
-    }
-  set.sheet.verts = sheet_verts(set.sheet.quads);
-  set.sheet.depth = kDepth;
+  if (!is_good) hexes.clear();
+  return hexes;
 }
 
 bool PillowPlanner::splits_a_squeezed_vert(const PillowJob& job) const {
@@ -94,8 +80,8 @@ bool PillowPlanner::splits_a_squeezed_vert(const PillowJob& job) const {
 }
 
 /// The sheet may end on curves and inside the job's region, but not cross anything else.
-bool PillowPlanner::keeps_marks(const PillowJob& job, const PillowSet& set) const {
-  for (VertId v : set.sheet.verts) {
+bool PillowPlanner::keeps_marks(const PillowJob& job, const Sheet& sheet) const {
+  for (VertId v : sheet.verts) {
     if (state_.move[v] != MoveIn::Space) return false;
     if (!is_rim(v)) continue;
     for (QuadId q : marked_.graph.quads(v)) {
@@ -123,11 +109,9 @@ bool PillowPlanner::is_rim(VertId v) const {
   return any_in && any_out;
 }
 
-bool PillowPlanner::find_directions(PillowSet& set) {
-  for (VertId v : set.sheet.verts) {
+bool PillowPlanner::can_pass(const Sheet& sheet) {
+  for (VertId v : sheet.verts)
     if (check_.check(v, is_in_, options_.min_cosine) != SetFault::None) return false;
-    set.sheet.directions.push_back(check_.direction(v, is_in_).direction);
-  }
   return true;
 }
 

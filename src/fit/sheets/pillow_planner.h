@@ -3,6 +3,7 @@
 
 #include "fit/carve/set_check.h"
 #include "fit/sheets/feature_layers.h"
+#include "fit/sheets/sheet.h"
 
 namespace hexwright::fitting {
 
@@ -12,33 +13,26 @@ struct PillowJob {
   std::vector<QuadId> quads;  ///< squeezed ones, of the state the job was made in
 };
 
-/// Hexes to pillow and the sheet around them.
-struct PillowSet {
-  std::vector<HexId> hexes;  ///< ascending
-  Sheet sheet;
-};
-
 /// Finds sets that can be pillowed in one state of the mesh.
 class PillowPlanner {
  public:
   PillowPlanner(const FitState& state, const FeatureMarks& marks, const MarkedGraph& marked,
                 const PillowOptions& options);
 
-  /// The job's set with the first extent that works; empty hexes when none does.
-  PillowSet plan(const PillowJob& job);
+  /// The hexes, ascending, of the first extent that works; none when none does.
+  std::vector<HexId> plan(const PillowJob& job);
 
   /// The job's quads and `ring` vertex rings around them in its region, ascending.
   std::vector<QuadId> grow(const PillowJob& job, int ring) const;
 
  private:
   std::vector<QuadId> quads_of_region(RegionId region) const;
-  PillowSet try_quads(const PillowJob& job, const std::vector<QuadId>& quads);
-  void collect_faces(PillowSet& set) const;
+  std::vector<HexId> try_quads(const PillowJob& job, const std::vector<QuadId>& quads);
   bool splits_a_squeezed_vert(const PillowJob& job) const;
-  bool keeps_marks(const PillowJob& job, const PillowSet& set) const;
+  bool keeps_marks(const PillowJob& job, const Sheet& sheet) const;
   bool is_inside(BoundaryEdgeId e) const;
   bool is_rim(VertId v) const;
-  bool find_directions(PillowSet& set);
+  bool can_pass(const Sheet& sheet);
 
   const FitState& state_;
   const FeatureMarks& marks_;

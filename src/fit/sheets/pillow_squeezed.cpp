@@ -6,6 +6,8 @@
 
 #include "fit/sheets/feature_layers.h"
 #include "fit/sheets/pillow_planner.h"
+#include "fit/sheets/relabel.h"
+#include "fit/sheets/visible.h"
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
@@ -110,48 +112,38 @@ class Batch {
  public:
   Batch(const FitState& state) : state_(state), is_used_(state.num_verts(), 0) {}
 
-  bool add(const PillowSet& set) {
-    for (HexId h : set.hexes)
+  bool add(const std::vector<HexId>& hexes) {
+    for (HexId h : hexes)
       for (VertId v : state_.mesh.hexes[h])
         if (is_used_[v.index()]) return false;
-    for (HexId h : set.hexes)
+    for (HexId h : hexes)
       for (VertId v : state_.mesh.hexes[h]) is_used_[v.index()] = 1;
-    sets_.push_back(set);
+    hexes_.insert(hexes_.end(), hexes.begin(), hexes.end());
+    ++num_sets_;
     return true;
   }
 
-  std::size_t size() const { return sets_.size(); }
+  std::size_t size() const { return num_sets_; }
 
-  std::vector<char> membership() const {
-    std::vector<char> is_in(state_.mesh.num_hexes(), 0);
-    for (const PillowSet& set : sets_)
-      for (HexId h : set.hexes) is_in[h.index()] = 1;
-    return is_in;
-  }
-
-  Sheet sheet() const {
-    Sheet all;
-    all.depth = sets_.front().sheet.depth;
-    std::vector<std::pair<VertId, Vec3>> verts;
-    for (const PillowSet& set : sets_) {
-      all.quads.insert(all.quads.end(), set.sheet.quads.begin(), set.sheet.quads.end());
-      all.behind.insert(all.behind.end(), set.sheet.behind.begin(), set.sheet.behind.end());
-      for (std::size_t i = 0; i < set.sheet.verts.size(); ++i)
-        verts.push_back({set.sheet.verts[i], set.sheet.directions[i]});
-    }
-    std::sort(verts.begin(), verts.end(),
-              [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (const auto& [v, direction] : verts) {
-      all.verts.push_back(v);
-      all.directions.push_back(direction);
-    }
-    return all;
+  /// The sheet between the sets and the other hexes; the sets' boundary quads follow.
+  SheetPlan plan() const {
+    SheetPlan plan;
+    plan.takes_copy.assign(state_.mesh.num_hexes(), 0);
+    for (HexId h : hexes_) plan.takes_copy[h.index()] = 1;
+    for (const HexFace& face : state_.quad_face)
+      plan.follows.push_back(plan.takes_copy[face.hex.index()]);
+    plan.sheet.add_inner_faces(state_.mesh, state_.neighbors, hexes_, plan.takes_copy);
+    plan.sheet.collect_verts();
+    for (const auto& visible : find_visible_directions(state_.mesh, plan.sheet))
+      plan.directions.push_back(visible.direction);
+    return plan;
   }
 
  private:
   const FitState& state_;
-  std::vector<char> is_used_;
-  std::vector<PillowSet> sets_;
+  std::vector<char> is_used_;  // per vertex
+  std::vector<HexId> hexes_;
+  std::size_t num_sets_ = 0;
 };
 
 /// Plans and inserts one batch of at most `max_jobs`; false when there was nothing left to do.
@@ -163,8 +155,8 @@ bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& opt
   std::vector<std::pair<VertId, RegionId>> keys;
   for (const PillowJob& job : JobMaker(state, marks, marked, options).run(planner, tried)) {
     const auto job_keys = keys_of(state, marked, job, options);
-    const PillowSet set = planner.plan(job);
-    if (set.hexes.empty()) {
+    const std::vector<HexId> set = planner.plan(job);
+    if (set.empty()) {
       tried.insert(job_keys.begin(), job_keys.end());
       ++report.num_skipped;
     } else if (batch.size() < max_jobs && batch.add(set)) {
@@ -172,10 +164,10 @@ bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& opt
     }
   }
   if (batch.size() == 0) return false;
-  const Sheet sheet = batch.sheet();
-  if (insert_behind_set(state, marks, marked, batch.membership(), sheet)) {
+  const SheetPlan plan = batch.plan();
+  if (!apply_plan(state, marks, marked, plan).copies.empty()) {
     report.num_pillows += batch.size();
-    report.num_hexes += sheet.quads.size();
+    report.num_hexes += plan.sheet.quads.size();
     tried.insert(keys.begin(), keys.end());
     max_jobs = std::min(max_jobs, kMaxJobs / 2) * 2;
   } else if (batch.size() == 1) {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "fit/curves/curve_convexity.h"
-#include "fit/sheets/extrude_regions.h"
 #include "fit/sheets/local_sheets.h"
+#include "fit/sheets/pad.h"
 #include "fit/sheets/padding_groups.h"
 #include "relax/finish.h"
 #include "relax/sweep.h"
@@ -172,12 +172,14 @@ class SelectivePadder {
 
   /// Returns the groups of the batch whose sheets do not fit.
   std::vector<GroupId> extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) const {
-    IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetChoice::kNone);
+    IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetSets::kNone);
     for (std::size_t i = 0; i < batch.size(); ++i) group_to_sheet[batch[i]] = static_cast<int>(i);
-    SheetChoice choice;
-    choice.num_sheets = batch.size();
-    for (GroupId g : groups_.region_to_group) choice.region_to_sheet.push_back(group_to_sheet[g]);
-    const auto is_done = extrude_regions(attempt.state, attempt.marks, *target_.features, choice);
+    SheetSets sets;
+    sets.num_sheets = batch.size();
+    for (RegionId r : attempt.marks.quad_to_region)
+      sets.quad_to_sheet.push_back(group_to_sheet[groups_.region_to_group[r]]);
+    const auto is_done =
+        fitting::pad(attempt.state, attempt.marks, *target_.features, sets).is_done;
     std::vector<GroupId> unfit;
     for (std::size_t i = 0; i < batch.size(); ++i)
       if (!is_done[i]) unfit.push_back(batch[i]);
