@@ -20,13 +20,13 @@ constexpr double kCornerShare = 0.65;  // of a copy's parameter between a vertex
 
 class Padder {
  public:
-  Padder(FitState& state, FeatureMarks& marks, const FeatureGraph& features, const SheetSets& sets)
+  Padder(FitState& state, BoundaryState& boundary, const FeatureGraph& features,
+         const SheetSets& sets)
       : state_(state),
-        marks_(marks),
+        boundary_(boundary),
         features_(features),
         sets_(sets),
         is_in_use_(sets.num_sheets, 1),
-        marked_(state, marks),
         check_(state.mesh, state.vert_to_hex, state.neighbors, true),
         on_curve_(state.num_verts()),
         direction_(state.num_verts()) {}
@@ -36,7 +36,7 @@ class Padder {
     while (true) {
       make_plan();
       if (plan_.sheet.quads.empty()) break;
-      const Insertion insertion = apply_plan(state_, marks_, marked_, plan_);
+      const Insertion insertion = apply_plan(state_, boundary_, plan_);
       if (!insertion.copies.empty()) break;
       for (VertId v : insertion.stuck) block(v);
     }
@@ -54,7 +54,7 @@ class Padder {
   /// The sheet of a sheet vertex: it has no other.
   std::size_t sheet_of(VertId v) const {
     int sheet = SheetSets::kNone;
-    for (QuadId q : marked_.graph.quads(v)) sheet = std::max(sheet, sets_.quad_to_sheet[q]);
+    for (QuadId q : boundary_.graph.quads(v)) sheet = std::max(sheet, sets_.quad_to_sheet[q]);
     if (has_hexes())
       for (const HexCorner& corner : state_.vert_to_hex[v])
         sheet = std::max(sheet, sets_.hex_to_sheet[corner.hex]);
@@ -91,7 +91,7 @@ class Padder {
   /// The sheets in use as one (of several components).
   void make_plan() {
     plan_ = {};
-    for (QuadId q : marks_.quad_to_region.ids()) {
+    for (QuadId q : boundary_.quad_to_region.ids()) {
       if (is_covered(q)) plan_.sheet.add_face(state_.mesh, state_.quad_face[q.index()]);
       plan_.follows.push_back(follows(q) ? 1 : 0);
     }
@@ -118,8 +118,8 @@ class Padder {
   std::optional<CurvePlace> place_copy(VertId v) {
     if (state_.move[v] != MoveIn::Space) return {};
     if (has_hexes() && !check_.is_manifold(v, plan_.takes_copy)) return {};
-    if (marked_.graph.quads(v).empty()) return CurvePlace{};  // inside the mesh
-    const QuadFans fans = find_quad_fans(marked_, v, [&](QuadId q) { return !follows(q); });
+    if (boundary_.graph.quads(v).empty()) return CurvePlace{};  // inside the mesh
+    const QuadFans fans = find_quad_fans(boundary_, v, [&](QuadId q) { return !follows(q); });
     if (fans.num_inside != 1 || fans.num_outside > 1 || fans.marked_outside.size() > 1) return {};
     if (fans.marked_outside.empty()) return CurvePlace{};
     return place_on_curve(v, fans.marked_outside[0]);
@@ -128,9 +128,9 @@ class Padder {
   /// The rim leaves a corner along a curve of the other side, or crosses a curve: the copy lies on
   /// that curve, between the vertex and the next one.
   std::optional<CurvePlace> place_on_curve(VertId v, BoundaryEdgeId e) const {
-    const CurveId c = marked_.edge_to_curve[e];
+    const CurveId c = boundary_.edge_to_curve[e];
     const FeatureCurve& curve = features_.curves[c];
-    const VertId next = marked_.graph.edge(e).other(v);
+    const VertId next = boundary_.graph.edge(e).other(v);
     const double length = curve.length();
     const bool is_corner = state_.kind[v] == VertKind::Corner;
     if (!is_corner && (state_.kind[v] != VertKind::Curve || state_.curve[v] != c)) return {};
@@ -149,12 +149,11 @@ class Padder {
   }
 
   FitState& state_;
-  FeatureMarks& marks_;
+  BoundaryState& boundary_;
   const FeatureGraph& features_;
   const SheetSets& sets_;
   std::vector<char> is_in_use_;  // per sheet: has not failed
   std::vector<VertId> blocked_;
-  MarkedGraph marked_;
   SetCheck check_;
   SheetPlan plan_;                         // of the sheets in use
   IdVector<VertId, CurvePlace> on_curve_;  // of all sheets' vertices: see SheetPlan
@@ -163,9 +162,9 @@ class Padder {
 
 }  // namespace
 
-PadOutcome pad(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
+PadOutcome pad(FitState& state, BoundaryState& boundary, const FeatureGraph& features,
                const SheetSets& sets) {
-  return Padder(state, marks, features, sets).run();
+  return Padder(state, boundary, features, sets).run();
 }
 
 }  // namespace hexwright::fitting

@@ -1,7 +1,7 @@
 // Pads several places of the boundary at once: under sets of quads, around sets of hexes.
 #pragma once
 
-#include "fit/sheets/feature_layers.h"
+#include "fit/curves/boundary_state.h"
 
 namespace hexwright::fitting {
 
@@ -24,7 +24,7 @@ struct PadOutcome {
 /// Inserts the sheets with one rebuild of the state. Covered quads keep their vertices; over a
 /// sheet's rim its hexes become quads of the neighbouring regions. A sheet is left out where its
 /// rim cannot pass a vertex, no direction sees its quads at one, or no offset gives valid hexes.
-PadOutcome pad(FitState& state, FeatureMarks& marks, const FeatureGraph& features,
+PadOutcome pad(FitState& state, BoundaryState& boundary, const FeatureGraph& features,
                const SheetSets& sets);
 
 }  // namespace hexwright::fitting

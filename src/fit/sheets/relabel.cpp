@@ -8,20 +8,20 @@ namespace {
 
 class Relabeling {
  public:
-  Relabeling(FitState& state, FeatureMarks& marks, const MarkedGraph& marked, const SheetPlan& plan,
+  Relabeling(FitState& state, BoundaryState& boundary, const SheetPlan& plan,
              const std::vector<VertId>& copies)
-      : state_(state), marks_(marks), marked_(marked), plan_(plan), copies_(copies) {}
+      : state_(state), boundary_(boundary), plan_(plan), copies_(copies) {}
 
   void run() {
-    copy_of_.assign(marked_.graph.num_verts(), VertId{});
+    copy_of_.assign(boundary_.graph.num_verts(), VertId{});
     for (std::size_t i = 0; i < copies_.size(); ++i) copy_of_[plan_.sheet.verts[i]] = copies_[i];
     std::vector<QuadLabel> labels = label_quads();
     label_rim(labels);
-    move_edges();
+    const std::vector<LabeledEdge> edges = move_edges();
     state_.resize_arrays();
     for (std::size_t i = 0; i < copies_.size(); ++i) place_copy(i);
     state_.rebuild();
-    restore_regions(state_, std::move(labels), marks_);
+    boundary_.rebuild(state_, edges, std::move(labels));
   }
 
  private:
@@ -33,46 +33,46 @@ class Relabeling {
 
   std::vector<QuadLabel> label_quads() const {
     std::vector<QuadLabel> labels;
-    for (QuadId q : marks_.quad_to_region.ids()) {
+    for (QuadId q : boundary_.quad_to_region.ids()) {
       auto verts = state_.quads[q.index()];
       if (follows(q))
         for (VertId& v : verts) v = moved(v);
-      labels.push_back({sorted_verts(verts), marks_.quad_to_region[q]});
+      labels.push_back({sorted_verts(verts), boundary_.quad_to_region[q]});
     }
     return labels;
   }
 
   /// The sheet's own boundary quads stand on the edges between quads that follow and others.
   void label_rim(std::vector<QuadLabel>& labels) const {
-    for (std::size_t i = 0; i < marked_.graph.num_edges(); ++i) {
-      const auto& edge = marked_.graph.edge(BoundaryEdgeId(i));
+    for (std::size_t i = 0; i < boundary_.graph.num_edges(); ++i) {
+      const auto& edge = boundary_.graph.edge(BoundaryEdgeId(i));
       if (edge.num_quads != 2 || follows(edge.quads[0]) == follows(edge.quads[1])) continue;
       const QuadId follower = edge.quads[follows(edge.quads[0]) ? 0 : 1];
       labels.push_back({sorted_verts({edge.a, edge.b, moved(edge.a), moved(edge.b)}),
-                        marks_.quad_to_region[follower]});
+                        boundary_.quad_to_region[follower]});
     }
   }
 
-  void move_edges() {
-    for (LabeledEdge& edge : marks_.edges) {
-      const auto& quads =
-          marked_.graph.edge(marked_.graph.find_edge(edge.verts[0], edge.verts[1])).quads;
-      if (!follows(quads[0]) || !follows(quads[1])) continue;
-      for (VertId& v : edge.verts) v = moved(v);
-      std::sort(edge.verts.begin(), edge.verts.end());
+  std::vector<LabeledEdge> move_edges() const {
+    std::vector<LabeledEdge> edges;
+    for (BoundaryEdgeId e : boundary_.edge_to_curve.ids()) {
+      if (!boundary_.is_marked(e)) continue;
+      const auto& edge = boundary_.graph.edge(e);
+      const bool moves = edge.num_quads == 2 && follows(edge.quads[0]) && follows(edge.quads[1]);
+      edges.push_back({{edge.a, edge.b}, boundary_.edge_to_curve[e]});
+      if (moves) edges.back().verts = {moved(edge.a), moved(edge.b)};
     }
     for (std::size_t i = 0; i < copies_.size(); ++i)
       if (const CurveId curve = curve_place(i).curve; curve.is_valid())
-        marks_.edges.push_back({{plan_.sheet.verts[i], copies_[i]}, curve});
-    std::sort(marks_.edges.begin(), marks_.edges.end(),
-              [](const LabeledEdge& x, const LabeledEdge& y) { return x.verts < y.verts; });
+        edges.push_back({{plan_.sheet.verts[i], copies_[i]}, curve});
+    return edges;
   }
 
   void place_copy(std::size_t i) {
     const VertId v = plan_.sheet.verts[i], w = copies_[i];
     QuadId follower;
     bool is_kept = false;  // by some quad of the boundary
-    for (QuadId q : marked_.graph.quads(v)) {
+    for (QuadId q : boundary_.graph.quads(v)) {
       if (follows(q))
         follower = q;
       else
@@ -95,7 +95,7 @@ class Relabeling {
       state_.arc[w] = place.arc;
     } else {
       state_.kind[w] = VertKind::Surface;
-      state_.patch[w] = marks_.region_to_patch[marks_.quad_to_region[follower]];
+      state_.patch[w] = boundary_.region_to_patch[boundary_.quad_to_region[follower]];
     }
   }
 
@@ -109,8 +109,7 @@ class Relabeling {
   }
 
   FitState& state_;
-  FeatureMarks& marks_;
-  const MarkedGraph& marked_;
+  BoundaryState& boundary_;
   const SheetPlan& plan_;
   const std::vector<VertId>& copies_;  // per sheet vertex
   IdVector<VertId, VertId> copy_of_;   // invalid where the sheet does not pass
@@ -118,10 +117,9 @@ class Relabeling {
 
 }  // namespace
 
-Insertion apply_plan(FitState& state, FeatureMarks& marks, const MarkedGraph& marked,
-                     const SheetPlan& plan) {
+Insertion apply_plan(FitState& state, BoundaryState& boundary, const SheetPlan& plan) {
   Insertion insertion = insert_sheet(state.mesh, state.vert_to_hex, plan);
-  if (!insertion.copies.empty()) Relabeling(state, marks, marked, plan, insertion.copies).run();
+  if (!insertion.copies.empty()) Relabeling(state, boundary, plan, insertion.copies).run();
   return insertion;
 }
 

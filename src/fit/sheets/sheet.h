@@ -1,4 +1,5 @@
-// A sheet of hexes, and the plan of what its insertion does to a mesh and to the boundary's marks.
+// A sheet of hexes, and the plan of what its insertion does to a mesh and to the boundary's
+// boundary.
 #pragma once
 
 #include <array>

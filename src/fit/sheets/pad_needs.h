@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "fit/sheets/padding_groups.h"
+#include "fit/sheets/groups.h"
 
 namespace hexwright::fitting {
 
-/// What local sheets work on, besides the mesh and its marks.
-struct LocalSheetInput {
+/// What local sheets work on, besides the mesh and its boundary.
+struct PaddingInput {
   const FeatureGraph& features;
   const PaddingGroups& groups;
   const IdVector<CurveId, double>& convex_share;  ///< per curve, seen from outside the mesh
@@ -17,14 +17,14 @@ struct LocalSheetInput {
 /// Per group: hexes that sheets around what is in need would take; absent where they would not do:
 /// a wrapped hex at a concave curve meets it worse than a layer.
 IdVector<GroupId, std::optional<std::size_t>> count_local_hexes(const FitState& state,
-                                                                const FeatureMarks& marks,
-                                                                const LocalSheetInput& input);
+                                                                const BoundaryState& boundary,
+                                                                const PaddingInput& input);
 
 /// Wraps the hexes in need of the groups chosen, until none is left or nothing more can be done.
 /// Where a sheet cannot pass a vertex its set takes in all hexes there. Returns the needs that
 /// remain, per group.
-IdVector<GroupId, int> insert_local_sheets(FitState& state, FeatureMarks& marks,
-                                           const LocalSheetInput& input,
-                                           const IdVector<GroupId, char>& is_chosen);
+IdVector<GroupId, int> pad_needs(FitState& state, BoundaryState& boundary,
+                                 const PaddingInput& input,
+                                 const IdVector<GroupId, char>& is_chosen);
 
 }  // namespace hexwright::fitting

@@ -1,17 +1,26 @@
 // Pillows under squeezed quads, many at a time: sets that share no vertex go in together, so that
 // the adjacency is rebuilt once per batch.
+#include "fit/sheets/squeezed.h"
+
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
-#include "fit/sheets/feature_layers.h"
-#include "fit/sheets/pillow_planner.h"
 #include "fit/sheets/relabel.h"
+#include "fit/sheets/squeezed_planner.h"
 #include "fit/sheets/visible.h"
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
 namespace {
+
+double angle_at(const FitState& state, const std::array<VertId, 4>& quad, std::size_t k) {
+  const Vec3& o = state.mesh.positions[quad[k]];
+  const Vec3 a = normalized(state.mesh.positions[quad[(k + 1) % 4]] - o);
+  const Vec3 b = normalized(state.mesh.positions[quad[(k + 3) % 4]] - o);
+  return std::acos(std::clamp(dot(a, b), -1.0, 1.0));
+}
 
 constexpr int kMaxBatches = 60;
 constexpr std::size_t kMaxJobs = 1 << 20;  // in a batch
@@ -19,19 +28,20 @@ constexpr std::size_t kMaxJobs = 1 << 20;  // in a batch
 /// Jobs that were tried, by (vertex or none, region): ids that survive insertions.
 using Tried = std::set<std::pair<VertId, RegionId>>;
 
-bool is_wanted(const PillowOptions& options, VertId v) {
+bool is_wanted(const SqueezedOptions& options, VertId v) {
   if (options.is_wanted.empty()) return true;
   return v.index() < options.is_wanted.size() && options.is_wanted[v.index()] != 0;
 }
 
 /// Of the corners a job is about.
-std::vector<std::pair<VertId, RegionId>> keys_of(const FitState& state, const MarkedGraph& marked,
-                                                 const PillowJob& job,
-                                                 const PillowOptions& options) {
+std::vector<std::pair<VertId, RegionId>> keys_of(const FitState& state,
+                                                 const BoundaryState& boundary,
+                                                 const SqueezedJob& job,
+                                                 const SqueezedOptions& options) {
   if (options.whole_regions) return {{VertId{}, job.region}};
   std::vector<std::pair<VertId, RegionId>> keys;
   for (QuadId q : job.quads) {
-    const unsigned corners = squeezed_corners(state, marked, q, options.corner_angle);
+    const unsigned corners = squeezed_corners(state, boundary, q, options.corner_angle);
     for (std::size_t k = 0; k < 4; ++k) {
       const VertId v = state.quads[q.index()][k];
       if ((corners >> k & 1u) != 0 && is_wanted(options, v)) keys.push_back({v, job.region});
@@ -44,13 +54,12 @@ std::vector<std::pair<VertId, RegionId>> keys_of(const FitState& state, const Ma
 /// whose surroundings touch.
 class JobMaker {
  public:
-  JobMaker(const FitState& state, const FeatureMarks& marks, const MarkedGraph& marked,
-           const PillowOptions& options)
-      : state_(state), marks_(marks), marked_(marked), options_(options) {}
+  JobMaker(const FitState& state, const BoundaryState& boundary, const SqueezedOptions& options)
+      : state_(state), boundary_(boundary), options_(options) {}
 
-  std::vector<PillowJob> run(const PillowPlanner& planner, const Tried& tried) {
-    for (QuadId q : find_squeezed_quads(state_, marked_, options_.corner_angle)) {
-      const auto keys = keys_of(state_, marked_, {marks_.quad_to_region[q], {q}}, options_);
+  std::vector<SqueezedJob> run(const SqueezedPlanner& planner, const Tried& tried) {
+    for (QuadId q : find_squeezed_quads(state_, boundary_, options_.corner_angle)) {
+      const auto keys = keys_of(state_, boundary_, {boundary_.quad_to_region[q], {q}}, options_);
       const bool is_new = std::any_of(keys.begin(), keys.end(),
                                       [&](const auto& key) { return tried.count(key) == 0; });
       if (is_new) quads_.push_back(q);
@@ -67,10 +76,10 @@ class JobMaker {
     std::size_t quad;
   };
 
-  void join_touching(const PillowPlanner& planner, UnionFind& sets) const {
+  void join_touching(const SqueezedPlanner& planner, UnionFind& sets) const {
     std::vector<Claim> claims;
     for (std::size_t i = 0; i < quads_.size(); ++i) {
-      const RegionId region = marks_.quad_to_region[quads_[i]];
+      const RegionId region = boundary_.quad_to_region[quads_[i]];
       if (options_.whole_regions) {
         claims.push_back({region, VertId{}, i});
         continue;
@@ -86,14 +95,14 @@ class JobMaker {
         sets.unite(static_cast<int>(claims[k - 1].quad), static_cast<int>(claims[k].quad));
   }
 
-  std::vector<PillowJob> collect(UnionFind& sets) const {
-    std::vector<PillowJob> jobs;
+  std::vector<SqueezedJob> collect(UnionFind& sets) const {
+    std::vector<SqueezedJob> jobs;
     std::vector<std::size_t> job_of(quads_.size());
     for (std::size_t i = 0; i < quads_.size(); ++i) {
       const auto root = static_cast<std::size_t>(sets.find(static_cast<int>(i)));
       if (root == i) {
         job_of[i] = jobs.size();
-        jobs.push_back({marks_.quad_to_region[quads_[i]], {}});
+        jobs.push_back({boundary_.quad_to_region[quads_[i]], {}});
       }
       jobs[job_of[root]].quads.push_back(quads_[i]);
     }
@@ -101,9 +110,8 @@ class JobMaker {
   }
 
   const FitState& state_;
-  const FeatureMarks& marks_;
-  const MarkedGraph& marked_;
-  const PillowOptions& options_;
+  const BoundaryState& boundary_;
+  const SqueezedOptions& options_;
   std::vector<QuadId> quads_;
 };
 
@@ -147,14 +155,13 @@ class Batch {
 };
 
 /// Plans and inserts one batch of at most `max_jobs`; false when there was nothing left to do.
-bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& options, Tried& tried,
-                  std::size_t& max_jobs, PillowReport& report) {
-  const MarkedGraph marked(state, marks);
-  PillowPlanner planner(state, marks, marked, options);
+bool pad_batch(FitState& state, BoundaryState& boundary, const SqueezedOptions& options,
+               Tried& tried, std::size_t& max_jobs, SqueezedReport& report) {
+  SqueezedPlanner planner(state, boundary, options);
   Batch batch(state);
   std::vector<std::pair<VertId, RegionId>> keys;
-  for (const PillowJob& job : JobMaker(state, marks, marked, options).run(planner, tried)) {
-    const auto job_keys = keys_of(state, marked, job, options);
+  for (const SqueezedJob& job : JobMaker(state, boundary, options).run(planner, tried)) {
+    const auto job_keys = keys_of(state, boundary, job, options);
     const std::vector<HexId> set = planner.plan(job);
     if (set.empty()) {
       tried.insert(job_keys.begin(), job_keys.end());
@@ -165,8 +172,8 @@ bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& opt
   }
   if (batch.size() == 0) return false;
   const SheetPlan plan = batch.plan();
-  if (!apply_plan(state, marks, marked, plan).copies.empty()) {
-    report.num_pillows += batch.size();
+  if (!apply_plan(state, boundary, plan).copies.empty()) {
+    report.num_sheets += batch.size();
     report.num_hexes += plan.sheet.quads.size();
     tried.insert(keys.begin(), keys.end());
     max_jobs = std::min(max_jobs, kMaxJobs / 2) * 2;
@@ -181,13 +188,36 @@ bool pillow_batch(FitState& state, FeatureMarks& marks, const PillowOptions& opt
 
 }  // namespace
 
-PillowReport pillow_squeezed_quads(FitState& state, FeatureMarks& marks,
-                                   const PillowOptions& options) {
-  PillowReport report;
+unsigned squeezed_corners(const FitState& state, const BoundaryState& boundary, QuadId q,
+                          double corner_angle) {
+  const auto& quad = state.quads[q.index()];
+  const auto& edges = boundary.graph.quad_edges(q);
+  unsigned result = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!boundary.is_marked(edges[k]) || !boundary.is_marked(edges[(k + 3) % 4])) continue;
+    const VertKind kind = state.kind[quad[k]];
+    if (kind == VertKind::Curve ||
+        (kind == VertKind::Corner && angle_at(state, quad, k) > corner_angle))
+      result |= 1u << k;
+  }
+  return result;
+}
+
+std::vector<QuadId> find_squeezed_quads(const FitState& state, const BoundaryState& boundary,
+                                        double corner_angle) {
+  std::vector<QuadId> result;
+  for (QuadId q : id_range<QuadId>(state.quads.size()))
+    if (squeezed_corners(state, boundary, q, corner_angle) != 0) result.push_back(q);
+  return result;
+}
+
+SqueezedReport pad_squeezed_quads(FitState& state, BoundaryState& boundary,
+                                  const SqueezedOptions& options) {
+  SqueezedReport report;
   Tried tried;
   std::size_t max_jobs = kMaxJobs;
   for (int k = 0; k < kMaxBatches; ++k)
-    if (!pillow_batch(state, marks, options, tried, max_jobs, report)) break;
+    if (!pad_batch(state, boundary, options, tried, max_jobs, report)) break;
   return report;
 }
 

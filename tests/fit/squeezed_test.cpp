@@ -1,9 +1,9 @@
 // Pillows under squeezed quads keep the mesh valid and the marks consistent.
-#include "fit/sheets/feature_layers.h"
+#include "fit/sheets/squeezed.h"
 
 #include "boundary_fixtures.h"
+#include "fit/sheets/failed.h"
 #include "fit/sheets/pad_boundary.h"
-#include "fit/sheets/pillow_failed.h"
 #include "relax/sweep.h"
 
 namespace hexwright::fitting {
@@ -23,10 +23,10 @@ double min_jacobian(const HexMesh& mesh) {
   return least;
 }
 
-std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+std::string problem_of(const FitState& state, const BoundaryState& boundary) {
   if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
   if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = find_problem(state, marks);
+  const auto problem = boundary.find_problem(state);
   return problem ? problem->message : "";
 }
 
@@ -63,20 +63,18 @@ class Pillow : public ::testing::TestWithParam<double> {};
 
 TEST_P(Pillow, UnderWholeRegionsLeavesNoSqueezedQuad) {
   TurnedCube c(GetParam());
-  ASSERT_EQ(problem_of(c.state, c.attached.marks), "");
-  const PillowOptions options;
+  ASSERT_EQ(problem_of(c.state, c.attached.boundary), "");
+  const SqueezedOptions options;
   const auto count = [&] {
-    return find_squeezed_quads(c.state, MarkedGraph(c.state, c.attached.marks),
-                               options.corner_angle)
-        .size();
+    return find_squeezed_quads(c.state, c.attached.boundary, options.corner_angle).size();
   };
   const std::size_t squeezed = count();
   ASSERT_GT(squeezed, 0u);
   const std::size_t before = c.state.mesh.num_hexes();
-  const PillowReport report = pillow_squeezed_quads(c.state, c.attached.marks, options);
-  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+  const SqueezedReport report = pad_squeezed_quads(c.state, c.attached.boundary, options);
+  EXPECT_EQ(problem_of(c.state, c.attached.boundary), "");
   EXPECT_EQ(c.state.mesh.num_hexes(), before + report.num_hexes);
-  EXPECT_GT(report.num_pillows, 0u);
+  EXPECT_GT(report.num_sheets, 0u);
   if (report.num_skipped == 0) {
     EXPECT_EQ(count(), 0u);
   }
@@ -84,12 +82,12 @@ TEST_P(Pillow, UnderWholeRegionsLeavesNoSqueezedQuad) {
 
 TEST_P(Pillow, AroundSqueezedQuadsKeepsTheMarks) {
   TurnedCube whole(GetParam()), local(GetParam());
-  PillowOptions options;
-  const PillowReport w = pillow_squeezed_quads(whole.state, whole.attached.marks, options);
+  SqueezedOptions options;
+  const SqueezedReport w = pad_squeezed_quads(whole.state, whole.attached.boundary, options);
   options.whole_regions = false;
-  const PillowReport l = pillow_squeezed_quads(local.state, local.attached.marks, options);
-  EXPECT_EQ(problem_of(local.state, local.attached.marks), "");
-  EXPECT_GT(l.num_pillows, 0u);
+  const SqueezedReport l = pad_squeezed_quads(local.state, local.attached.boundary, options);
+  EXPECT_EQ(problem_of(local.state, local.attached.boundary), "");
+  EXPECT_GT(l.num_sheets, 0u);
   if (GetParam() < 0.5) {  // turned farther, almost every quad at a curve is squeezed
     EXPECT_LT(l.num_hexes, w.num_hexes);
   }
@@ -97,40 +95,39 @@ TEST_P(Pillow, AroundSqueezedQuadsKeepsTheMarks) {
 
 TEST_P(Pillow, OnlyAtWantedVertices) {
   TurnedCube c(GetParam());
-  PillowOptions options;
+  SqueezedOptions options;
   options.whole_regions = false;
   options.is_wanted.assign(c.state.num_verts(), 0);
   FitState none = c.state;
-  FeatureMarks marks = c.attached.marks;
-  EXPECT_EQ(pillow_squeezed_quads(none, marks, options).num_pillows, 0u);
+  BoundaryState boundary = c.attached.boundary;
+  EXPECT_EQ(pad_squeezed_quads(none, boundary, options).num_sheets, 0u);
   EXPECT_EQ(none.mesh.num_hexes(), c.state.mesh.num_hexes());
-  const MarkedGraph marked(c.state, c.attached.marks);
-  const QuadId q = find_squeezed_quads(c.state, marked, options.corner_angle).front();
+  const QuadId q = find_squeezed_quads(c.state, c.attached.boundary, options.corner_angle).front();
   for (VertId v : c.state.quads[q.index()]) options.is_wanted[v.index()] = 1;
-  const PillowReport one = pillow_squeezed_quads(c.state, c.attached.marks, options);
-  EXPECT_LE(one.num_pillows, 4u);
-  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+  const SqueezedReport one = pad_squeezed_quads(c.state, c.attached.boundary, options);
+  EXPECT_LE(one.num_sheets, 4u);
+  EXPECT_EQ(problem_of(c.state, c.attached.boundary), "");
 }
 
 TEST_P(Pillow, WhereTheFitFailedKeepsTheMeshValid) {
   TurnedCube c(GetParam());
   const FitTarget target{c.tree, &c.features};
   run_schedule(c.state, target, {{0, 1, 0}, geometric_weights(1, 300, 5), 1, 0.03, true}, {});
-  const PillowReport report =
-      pillow_failed_quads(c.state, c.attached.marks, target, {0.5, 0.02, 2}, {});
-  EXPECT_GT(report.num_pillows, 0u);
-  EXPECT_EQ(problem_of(c.state, c.attached.marks), "");
+  const SqueezedReport report =
+      pad_failed_quads(c.state, c.attached.boundary, target, {0.5, 0.02, 2}, {});
+  EXPECT_GT(report.num_sheets, 0u);
+  EXPECT_EQ(problem_of(c.state, c.attached.boundary), "");
   // Nothing has failed by a limit that everything meets: nothing happens.
   const std::size_t num_hexes = c.state.mesh.num_hexes();
-  pillow_failed_quads(c.state, c.attached.marks, target, {0, 1e9, 2}, {});
+  pad_failed_quads(c.state, c.attached.boundary, target, {0, 1e9, 2}, {});
   EXPECT_EQ(c.state.mesh.num_hexes(), num_hexes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, Pillow, ::testing::Values(0.2, 0.4, 0.55, 0.7));
 
-TEST(FeatureMarks, LabelEveryQuadEdgeAndCorner) {
+TEST(BoundaryState, LabelEveryQuadEdgeAndCorner) {
   TurnedCube c(0.4);
-  const BoundaryLabels labels = make_labels(c.state, c.attached.marks, c.tree);
+  const BoundaryLabels labels = make_labels(c.state, c.attached.boundary, c.tree);
   EXPECT_EQ(labels.quads.size(), c.state.quads.size());
   for (const LabeledQuad& quad : labels.quads) EXPECT_TRUE(quad.patch.is_valid());
   EXPECT_EQ(labels.corners.size(), 8u);

@@ -1,15 +1,15 @@
 // Selective padding: valid, consistently marked, and cheaper than a layer everywhere.
-#include "fit/sheets/selective_padding.h"
+#include "fit/sheets/choose.h"
 
 #include "hexwright/fit/fit.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
 #include "fit/curves/curve_convexity.h"
+#include "fit/sheets/failed.h"
+#include "fit/sheets/groups.h"
 #include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
-#include "fit/sheets/padding_groups.h"
-#include "fit/sheets/pillow_failed.h"
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
@@ -21,10 +21,10 @@ double min_jacobian(const HexMesh& mesh) {
   return *std::min_element(quality.begin(), quality.end());
 }
 
-std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+std::string problem_of(const FitState& state, const BoundaryState& boundary) {
   if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
   if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = find_problem(state, marks);
+  const auto problem = boundary.find_problem(state);
   return problem ? problem->message : "";
 }
 
@@ -42,7 +42,7 @@ struct Scaffold {
     attached = attach_features(padded, tree, features, {});
   }
   SelectivePadding pad() const {
-    return pad_selectively(carved, padded, attached.marks, {tree, &features}, {});
+    return choose_sheets(carved, padded, attached.boundary, {tree, &features}, {});
   }
   TriMesh surface;
   SurfaceTree tree;
@@ -51,8 +51,8 @@ struct Scaffold {
   /// Hexes of the alternative: the layer everywhere, and pillows under squeezed regions.
   std::size_t num_hexes_everywhere() const {
     FitState state = padded;
-    FeatureMarks marks = attached.marks;
-    pillow_squeezed_quads(state, marks, {});
+    BoundaryState boundary = attached.boundary;
+    pad_squeezed_quads(state, boundary, {});
     return state.mesh.num_hexes();
   }
   AttachedFeatures attached;
@@ -71,7 +71,7 @@ TEST(SelectivePadding, AddsNothingToABoxInLineWithItsGrid) {
   test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
   const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_EQ(result.report.num_groups, 6u);
   EXPECT_EQ(result.report.num_needed, 0u);
   EXPECT_EQ(result.state.mesh.num_hexes(), 216u);
@@ -81,14 +81,14 @@ class SelectivePaddingTurned : public ::testing::TestWithParam<double> {};
 
 TEST_P(SelectivePaddingTurned, IsValidAndSmaller) {
   const Scaffold s(turned_cube(GetParam()), test::box_hex_mesh(16, 16, 16));
-  ASSERT_EQ(problem_of(s.padded, s.attached.marks), "");
+  ASSERT_EQ(problem_of(s.padded, s.attached.boundary), "");
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_LE(result.report.num_sheets, result.report.num_needed);
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
   // The curves keep their length in edges or gain some; corners stay corners.
-  EXPECT_GE(result.marks.edges.size(), s.attached.marks.edges.size());
+  EXPECT_GE(result.boundary.marked_edges().size(), s.attached.boundary.marked_edges().size());
   std::size_t corners = 0;
   for (VertKind kind : result.state.kind) corners += kind == VertKind::Corner ? 1 : 0;
   EXPECT_EQ(corners, 8u);
@@ -107,7 +107,7 @@ TEST(SelectivePadding, UnitesRegionsAcrossConcaveCurves) {
   });
   const Scaffold s(surface, test::box_hex_mesh(16, 16, 16));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_LT(result.report.num_groups, 8u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
 }
@@ -132,7 +132,7 @@ TEST(SelectivePadding, ServesTheOutsideToo) {
 TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
   const Scaffold s(test::cylinder_surface(8, 5.3, 3.1, 12.2, 64), test::box_hex_mesh(16, 16, 16));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
 }
@@ -143,17 +143,17 @@ TEST(PillowFailed, KeepsPillowsOnlyWhenTheyMend) {
   options.low = 2;  // every vertex of a curve has failed, and none is ever mended
   options.worthwhile = 0.99;
   FitState state = s.padded;
-  FeatureMarks marks = s.attached.marks;
+  BoundaryState boundary = s.attached.boundary;
   const HexMesh before = state.mesh;
   const FitTarget target{s.tree, &s.features};
-  EXPECT_EQ(pillow_failed_quads(state, marks, target, options, {}).num_pillows, 0u);
+  EXPECT_EQ(pad_failed_quads(state, boundary, target, options, {}).num_sheets, 0u);
   EXPECT_EQ(state.mesh.hexes, before.hexes);
   EXPECT_EQ(state.mesh.positions, before.positions);
   options.worthwhile = 100;  // whatever is left
-  const PillowReport report = pillow_failed_quads(state, marks, target, options, {});
-  EXPECT_GT(report.num_pillows, 0u);
+  const SqueezedReport report = pad_failed_quads(state, boundary, target, options, {});
+  EXPECT_GT(report.num_sheets, 0u);
   EXPECT_EQ(state.mesh.num_hexes(), before.num_hexes() + report.num_hexes);
-  EXPECT_EQ(problem_of(state, marks), "");
+  EXPECT_EQ(problem_of(state, boundary), "");
 }
 
 TEST(PillowFailed, DoesNothingWhereNothingFailed) {
@@ -162,8 +162,8 @@ TEST(PillowFailed, DoesNothingWhereNothingFailed) {
   options.low = -1;
   options.stuck = 1e9;
   FitState state = s.padded;
-  FeatureMarks marks = s.attached.marks;
-  pillow_failed_quads(state, marks, {s.tree, &s.features}, options, {});
+  BoundaryState boundary = s.attached.boundary;
+  pad_failed_quads(state, boundary, {s.tree, &s.features}, options, {});
   EXPECT_EQ(state.mesh.hexes, s.padded.mesh.hexes);
   EXPECT_EQ(state.mesh.positions, s.padded.mesh.positions);
 }
@@ -176,7 +176,7 @@ TEST(SelectivePadding, WrapsTheFewStepsOfALargeRegion) {
   });
   const Scaffold s(slab, test::box_hex_mesh(34, 20, 9));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_EQ(result.report.num_needed, 1u);
   EXPECT_EQ(result.report.num_sheets, 0u);  // of layers
   const std::size_t num_wrapped = result.state.mesh.num_hexes() - s.carved.mesh.num_hexes();
@@ -197,7 +197,7 @@ struct TwoFaces {
     test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
     const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
     state = s.carved;
-    marks = s.attached.marks;
+    boundary = s.attached.boundary;
     features = s.features;
     for (VertId v : state->kind.ids()) {
       if (!state->is_boundary(v)) continue;
@@ -208,16 +208,16 @@ struct TwoFaces {
     }
     sets.num_sheets = 2;
     sets.quad_to_sheet.assign(state->quads.size(), SheetSets::kNone);
-    for (QuadId q : marks.quad_to_region.ids()) {
+    for (QuadId q : boundary.quad_to_region.ids()) {
       Vec3 center;
       for (VertId v : state->quads[q.index()]) center += state->mesh.positions[v] * 0.25;
       if (center.x == 1) sets.quad_to_sheet[q] = 0;
       if (center.x == 7) sets.quad_to_sheet[q] = 1;
     }
   }
-  std::vector<char> insert() { return pad(*state, marks, features, sets).is_done; }
+  std::vector<char> insert() { return pad(*state, boundary, features, sets).is_done; }
   std::optional<FitState> state;
-  FeatureMarks marks;
+  BoundaryState boundary;
   FeatureGraph features;
   SheetSets sets;
 };
@@ -226,14 +226,14 @@ TEST(PadQuads, InsertsSheetsTogether) {
   TwoFaces faces(false);
   EXPECT_EQ(faces.insert(), (std::vector<char>{1, 1}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 72u);
-  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+  EXPECT_EQ(problem_of(*faces.state, faces.boundary), "");
 }
 
 TEST(PadQuads, LeavesOutTheSheetThatDoesNotFit) {
   TwoFaces faces(true), alone(true);
   EXPECT_EQ(faces.insert(), (std::vector<char>{1, 0}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 36u);
-  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+  EXPECT_EQ(problem_of(*faces.state, faces.boundary), "");
   // The other sheet is as if it had been alone.
   for (int& sheet : alone.sets.quad_to_sheet)
     if (sheet == 1) sheet = SheetSets::kNone;

@@ -1,11 +1,12 @@
 // Sheets keep a mesh conforming and positive; the set check agrees with what a sheet needs.
+#include "fit/sheets/insert.h"
+
 #include <random>
 
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "boundary_fixtures.h"
 #include "fit/carve/set_check.h"
-#include "fit/sheets/insert.h"
 
 namespace hexwright::fitting {
 namespace {

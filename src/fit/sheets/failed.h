@@ -3,7 +3,7 @@
 
 #include "hexwright/base/context.h"
 
-#include "fit/sheets/feature_layers.h"
+#include "fit/sheets/squeezed.h"
 
 namespace hexwright::fitting {
 
@@ -17,7 +17,7 @@ struct FailedOptions {
 /// Of a fitted state: pillows around the squeezed quads at curve and corner vertices that failed,
 /// then the fit of their surroundings, from a low to a high weight, and a refit. When that mends
 /// few of them everything is left as it was: the pillows would cost hexes and quality for nothing.
-PillowReport pillow_failed_quads(FitState& state, FeatureMarks& marks, const FitTarget& target,
-                                 const FailedOptions& options, const Context& context);
+SqueezedReport pad_failed_quads(FitState& state, BoundaryState& boundary, const FitTarget& target,
+                                const FailedOptions& options, const Context& context);
 
 }  // namespace hexwright::fitting

@@ -1,22 +1,21 @@
 // A set must be manifold and visible where its sheet passes, and must not tear marks apart.
-#include "fit/sheets/pillow_planner.h"
+#include "fit/sheets/squeezed_planner.h"
 
 #include <algorithm>
 
 namespace hexwright::fitting {
 
-PillowPlanner::PillowPlanner(const FitState& state, const FeatureMarks& marks,
-                             const MarkedGraph& marked, const PillowOptions& options)
+SqueezedPlanner::SqueezedPlanner(const FitState& state, const BoundaryState& boundary,
+                                 const SqueezedOptions& options)
     : state_(state),
-      marks_(marks),
-      marked_(marked),
+      boundary_(boundary),
       options_(options),
       check_(state.mesh, state.vert_to_hex, state.neighbors, false),
       is_in_(state.mesh.num_hexes(), 0),
       is_selected_(state.quads.size(), 0),
       is_sheet_vert_(state.num_verts(), 0) {}
 
-std::vector<HexId> PillowPlanner::plan(const PillowJob& job) {
+std::vector<HexId> SqueezedPlanner::plan(const SqueezedJob& job) {
   if (options_.whole_regions) return try_quads(job, quads_of_region(job.region));
   for (int ring : {options_.ring, 0, options_.ring + 1, options_.ring + 2}) {
     std::vector<HexId> hexes = try_quads(job, grow(job, ring));
@@ -25,14 +24,14 @@ std::vector<HexId> PillowPlanner::plan(const PillowJob& job) {
   return {};
 }
 
-std::vector<QuadId> PillowPlanner::grow(const PillowJob& job, int ring) const {
+std::vector<QuadId> SqueezedPlanner::grow(const SqueezedJob& job, int ring) const {
   std::vector<QuadId> quads = job.quads;
   for (int k = 0; k < ring; ++k) {
     std::vector<QuadId> next = quads;
     for (QuadId q : quads)
       for (VertId v : state_.quads[q.index()])
-        for (QuadId other : marked_.graph.quads(v))
-          if (marks_.quad_to_region[other] == job.region) next.push_back(other);
+        for (QuadId other : boundary_.graph.quads(v))
+          if (boundary_.quad_to_region[other] == job.region) next.push_back(other);
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
     quads = std::move(next);
@@ -40,15 +39,15 @@ std::vector<QuadId> PillowPlanner::grow(const PillowJob& job, int ring) const {
   return quads;
 }
 
-std::vector<QuadId> PillowPlanner::quads_of_region(RegionId region) const {
+std::vector<QuadId> SqueezedPlanner::quads_of_region(RegionId region) const {
   std::vector<QuadId> quads;
-  for (QuadId q : marks_.quad_to_region.ids())
-    if (marks_.quad_to_region[q] == region) quads.push_back(q);
+  for (QuadId q : boundary_.quad_to_region.ids())
+    if (boundary_.quad_to_region[q] == region) quads.push_back(q);
   return quads;
 }
 
-std::vector<HexId> PillowPlanner::try_quads(const PillowJob& job,
-                                            const std::vector<QuadId>& quads) {
+std::vector<HexId> SqueezedPlanner::try_quads(const SqueezedJob& job,
+                                              const std::vector<QuadId>& quads) {
   std::vector<HexId> hexes;
   for (QuadId q : quads) {
     hexes.push_back(state_.quad_face[q.index()].hex);
@@ -69,9 +68,9 @@ std::vector<HexId> PillowPlanner::try_quads(const PillowJob& job,
   return hexes;
 }
 
-bool PillowPlanner::splits_a_squeezed_vert(const PillowJob& job) const {
+bool SqueezedPlanner::splits_a_squeezed_vert(const SqueezedJob& job) const {
   for (QuadId q : job.quads) {
-    const unsigned corners = squeezed_corners(state_, marked_, q, options_.corner_angle);
+    const unsigned corners = squeezed_corners(state_, boundary_, q, options_.corner_angle);
     for (std::size_t k = 0; k < 4; ++k)
       if ((corners >> k & 1u) != 0 && is_sheet_vert_[state_.quads[q.index()][k].index()])
         return true;
@@ -80,36 +79,36 @@ bool PillowPlanner::splits_a_squeezed_vert(const PillowJob& job) const {
 }
 
 /// The sheet may end on curves and inside the job's region, but not cross anything else.
-bool PillowPlanner::keeps_marks(const PillowJob& job, const Sheet& sheet) const {
+bool SqueezedPlanner::keeps_marks(const SqueezedJob& job, const Sheet& sheet) const {
   for (VertId v : sheet.verts) {
     if (state_.move[v] != MoveIn::Space) return false;
     if (!is_rim(v)) continue;
-    for (QuadId q : marked_.graph.quads(v)) {
+    for (QuadId q : boundary_.graph.quads(v)) {
       if (!is_in_[state_.quad_face[q.index()].hex.index()] || is_selected_[q.index()]) continue;
-      if (state_.kind[v] != VertKind::Surface || marks_.quad_to_region[q] != job.region)
+      if (state_.kind[v] != VertKind::Surface || boundary_.quad_to_region[q] != job.region)
         return false;
     }
-    for (BoundaryEdgeId e : marked_.graph.edges(v))
-      if (marked_.is_marked(e) && is_inside(e)) return false;
+    for (BoundaryEdgeId e : boundary_.graph.edges(v))
+      if (boundary_.is_marked(e) && is_inside(e)) return false;
   }
   return true;
 }
 
-bool PillowPlanner::is_inside(BoundaryEdgeId e) const {
-  const auto& edge = marked_.graph.edge(e);
+bool SqueezedPlanner::is_inside(BoundaryEdgeId e) const {
+  const auto& edge = boundary_.graph.edge(e);
   return edge.num_quads == 2 && is_in_[state_.quad_face[edge.quads[0].index()].hex.index()] &&
          is_in_[state_.quad_face[edge.quads[1].index()].hex.index()];
 }
 
 /// On the boundary with quads of the set and of others.
-bool PillowPlanner::is_rim(VertId v) const {
+bool SqueezedPlanner::is_rim(VertId v) const {
   bool any_in = false, any_out = false;
-  for (QuadId q : marked_.graph.quads(v))
+  for (QuadId q : boundary_.graph.quads(v))
     (is_in_[state_.quad_face[q.index()].hex.index()] ? any_in : any_out) = true;
   return any_in && any_out;
 }
 
-bool PillowPlanner::can_pass(const Sheet& sheet) {
+bool SqueezedPlanner::can_pass(const Sheet& sheet) {
   for (VertId v : sheet.verts)
     if (check_.check(v, is_in_, options_.min_cosine) != SetFault::None) return false;
   return true;

@@ -1,5 +1,5 @@
 // Sheets around single hexes and rows of them, in place of layers under whole groups.
-#include "fit/sheets/local_sheets.h"
+#include "fit/sheets/pad_needs.h"
 
 #include <random>
 
@@ -19,25 +19,26 @@ double min_jacobian(const HexMesh& mesh) {
   return *std::min_element(quality.begin(), quality.end());
 }
 
-std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+std::string problem_of(const FitState& state, const BoundaryState& boundary) {
   if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
   if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = find_problem(state, marks);
+  const auto problem = boundary.find_problem(state);
   return problem ? problem->message : "";
 }
 
 /// A hex mesh whose whole boundary is one region without curves.
 struct Smooth {
   explicit Smooth(HexMesh mesh) : state(std::move(mesh)) {
-    marks.region_to_patch.push_back(PatchId{});
-    marks.quad_to_region.assign(state.quads.size(), RegionId(0));
+    boundary.region_to_patch.push_back(PatchId{});
+    boundary.rebuild(state, {}, {});
+    boundary.quad_to_region.assign(state.quads.size(), RegionId(0));
     groups.region_to_group.push_back(GroupId(0));
     groups.num_quads.push_back(state.quads.size());
     groups.num_needs.push_back(1);
   }
-  LocalSheetInput input() const { return {features, groups, convex_share}; }
+  PaddingInput input() const { return {features, groups, convex_share}; }
   std::vector<PaddingNeed> needs() const {
-    return find_padding_needs(state, marks, MarkedGraph(state, marks), convex_share, groups);
+    return find_padding_needs(state, boundary, convex_share, groups);
   }
   /// Wraps the hexes that satisfy a predicate of their centres, covering all their boundary quads.
   PadOutcome wrap(const std::function<bool(const Vec3&)>& is_in) {
@@ -50,10 +51,10 @@ struct Smooth {
     }
     for (const HexFace& face : state.quad_face)
       choice.quad_to_sheet.push_back(choice.hex_to_sheet[face.hex]);
-    return pad(state, marks, features, choice);
+    return pad(state, boundary, features, choice);
   }
   FitState state;
-  FeatureMarks marks;
+  BoundaryState boundary;
   FeatureGraph features;
   PaddingGroups groups;
   IdVector<CurveId, double> convex_share;
@@ -76,7 +77,7 @@ TEST(PadHexes, AddsOneHexPerFaceOfTheSet) {
     EXPECT_TRUE(outcome.blocked.empty());
     EXPECT_EQ(s.state.mesh.num_hexes(), 27u + 6u);
     EXPECT_EQ(s.state.quads.size(), 54u);  // no rim: everything of the set is covered
-    EXPECT_EQ(problem_of(s.state, s.marks), "");
+    EXPECT_EQ(problem_of(s.state, s.boundary), "");
   }
 }
 
@@ -109,20 +110,20 @@ TEST(PadHexes, IsValidForRandomBoxes) {
     const Vec3 d = hi - lo;
     const auto area = static_cast<std::size_t>(2 * (d.x * d.y + d.y * d.z + d.z * d.x));
     EXPECT_EQ(s.state.mesh.num_hexes(), 125u + area);
-    EXPECT_EQ(problem_of(s.state, s.marks), "");
+    EXPECT_EQ(problem_of(s.state, s.boundary), "");
   }
 }
 
 TEST(LocalSheets, MendAllEdgesOfATerrace) {
   Smooth s(terrace(7, 3));
-  const auto count = count_local_hexes(s.state, s.marks, s.input());
+  const auto count = count_local_hexes(s.state, s.boundary, s.input());
   ASSERT_FALSE(s.needs().empty());
   const std::size_t num_before = s.state.mesh.num_hexes();
-  const auto left = insert_local_sheets(s.state, s.marks, s.input(), IdVector<GroupId, char>(1, 1));
+  const auto left = pad_needs(s.state, s.boundary, s.input(), IdVector<GroupId, char>(1, 1));
   EXPECT_EQ(left[GroupId(0)], 0);
   EXPECT_TRUE(s.needs().empty());
   EXPECT_GE(s.state.mesh.num_hexes(), num_before + *count[GroupId(0)]);
-  EXPECT_EQ(problem_of(s.state, s.marks), "");
+  EXPECT_EQ(problem_of(s.state, s.boundary), "");
 }
 
 /// The boundary quads at a vertex as a sheet, and how well a direction sees them there.
@@ -193,7 +194,7 @@ TEST(MakeVisible, MovesOnlyWhatIsNotSeenAndKeepsHexesValid) {
 TEST(LocalSheets, LeaveGroupsAloneThatAreNotChosen) {
   Smooth s(terrace(5, 2));
   const HexMesh before = s.state.mesh;
-  insert_local_sheets(s.state, s.marks, s.input(), IdVector<GroupId, char>(1, 0));
+  pad_needs(s.state, s.boundary, s.input(), IdVector<GroupId, char>(1, 0));
   EXPECT_EQ(s.state.mesh.hexes, before.hexes);
   EXPECT_EQ(s.state.mesh.positions, before.positions);
 }
