@@ -134,6 +134,37 @@ TEST(SetCheck, FindsContactsByEdgeAndByVertex) {
   EXPECT_EQ(verdict({1, 1, 0, 1, 0, 0, 1, 0}), SetFault::NonManifold);
 }
 
+TEST(SetCheck, AgreesWithBruteForceOnAllOctants) {
+  const HexMesh mesh = test::box_hex_mesh(2, 2, 2);
+  const VertToHex vert_to_hex(mesh);
+  const HexNeighbors neighbors = compute_hex_neighbors(mesh);
+  SetCheck check(mesh, vert_to_hex, neighbors, true);
+  const VertId center(13);
+  for (unsigned octants = 0; octants < 256; ++octants) {
+    std::vector<char> set;
+    for (unsigned h = 0; h < 8; ++h) set.push_back((octants >> h & 1u) != 0 ? 1 : 0);
+    bool is_manifold = true;
+    for (char side : {0, 1}) {
+      std::vector<HexId> reached;
+      std::size_t total = 0;
+      for (HexId h : mesh.hexes.ids()) {
+        if (set[h.index()] != side) continue;
+        if (total++ == 0) reached.push_back(h);
+      }
+      for (std::size_t i = 0; i < reached.size(); ++i)
+        for (HexId other : neighbors.neighbor[reached[i]])
+          if (other.is_valid() && set[other.index()] == side &&
+              std::find(reached.begin(), reached.end(), other) == reached.end())
+            reached.push_back(other);
+      is_manifold &= reached.size() == total;
+    }
+    EXPECT_EQ(check.is_manifold(center, set), is_manifold) << octants;
+    if (!is_manifold) {
+      EXPECT_EQ(check.check(center, set, 0.1), SetFault::NonManifold) << octants;
+    }
+  }
+}
+
 TEST(VisibleDirection, IsTheBestOneOnRandomNormals) {
   std::mt19937 random(3);
   std::normal_distribution<double> gauss;

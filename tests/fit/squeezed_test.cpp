@@ -1,8 +1,11 @@
 // Pillows under squeezed quads keep the mesh valid and the marks consistent.
 #include "fit/sheets/squeezed.h"
 
+#include <random>
+
 #include "boundary_fixtures.h"
 #include "fit/sheets/failed.h"
+#include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
 #include "relax/sweep.h"
 
@@ -125,7 +128,67 @@ TEST_P(Pillow, WhereTheFitFailedKeepsTheMeshValid) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, Pillow, ::testing::Values(0.2, 0.4, 0.55, 0.7));
 
-TEST(BoundaryState, LabelEveryQuadEdgeAndCorner) {
+/// Sheets under and around random patches of the boundary, curves and corners included: what cannot
+/// pass is refused, what goes in leaves a consistent boundary.
+TEST(BoundaryState, HasNoProblemAfterRandomPlans) {
+  const TurnedCube c(0.4);
+  std::mt19937 random(5);
+  int num_done = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    FitState state = c.state;
+    BoundaryState boundary = c.attached.boundary;
+    for (int k = 0; k < 3; ++k) {  // a sheet meets the sheets before it
+      std::vector<QuadId> patch{QuadId(random() % state.quads.size())};
+      for (int ring = static_cast<int>(random() % 4); ring > 0; --ring)
+        for (std::size_t i = patch.size(); i-- > 0;)
+          for (VertId v : state.quads[patch[i].index()])
+            for (QuadId q : boundary.graph.quads(v)) patch.push_back(q);
+      SheetSets sets;
+      sets.num_sheets = 1;
+      sets.quad_to_sheet.assign(state.quads.size(), SheetSets::kNone);
+      if (random() % 2 == 0) sets.hex_to_sheet.assign(state.mesh.num_hexes(), SheetSets::kNone);
+      const bool covers_all = random() % 4 != 0;
+      for (QuadId q : patch) {
+        if (covers_all || boundary.quad_to_region[q] == boundary.quad_to_region[patch[0]])
+          sets.quad_to_sheet[q] = 0;
+        if (!sets.hex_to_sheet.empty()) sets.hex_to_sheet[state.quad_face[q.index()].hex] = 0;
+      }
+      num_done += pad(state, boundary, c.features, sets).is_done[0];
+      ASSERT_EQ(problem_of(state, boundary), "") << trial;
+    }
+  }
+  EXPECT_GT(num_done, 30);
+  EXPECT_LT(num_done, 180);
+}
+
+TEST(BoundaryState, FindsWhatDisagreesWithTheMesh) {
+  TurnedCube c(0.4);
+  const BoundaryState good = c.attached.boundary;
+  BoundaryState bad = good;
+  bad.quad_to_region[QuadId(0)] = {};
+  EXPECT_TRUE(bad.find_problem(c.state));
+  bad = good;
+  for (CurveId& curve : bad.edge_to_curve)
+    if (curve.is_valid()) {
+      curve = {};
+      break;
+    }
+  EXPECT_TRUE(bad.find_problem(c.state));
+  bad = good;
+  FitState other = c.state;
+  std::swap(other.quads[0], other.quads[1]);
+  EXPECT_TRUE(bad.find_problem(other));
+  other = c.state;
+  for (VertId v : other.kind.ids())
+    if (other.kind[v] == VertKind::Surface) {
+      other.kind[v] = VertKind::Corner;
+      break;
+    }
+  EXPECT_TRUE(good.find_problem(other));
+  EXPECT_FALSE(good.find_problem(c.state));
+}
+
+TEST(BoundaryState, LabelsEveryQuadEdgeAndCorner) {
   TurnedCube c(0.4);
   const BoundaryLabels labels = make_labels(c.state, c.attached.boundary, c.tree);
   EXPECT_EQ(labels.quads.size(), c.state.quads.size());

@@ -64,7 +64,7 @@ class SheetChooser {
     find_groups();
     while (true) {
       SelectivePadding best = pad_with_layers();
-      if (wrap_needs(best)) return best;
+      if (serve_needs(best)) return best;
     }
   }
 
@@ -72,7 +72,7 @@ class SheetChooser {
   /// Local sheets come last, for layers leave more room beside them than they beside layers. Groups
   /// that found no room for their layer get them too. False when needs remain in a group that was
   /// to get no layer: then it gets one after all.
-  bool wrap_needs(SelectivePadding& padding) {
+  bool serve_needs(SelectivePadding& padding) {
     IdVector<GroupId, char> is_chosen = is_local_;
     for (GroupId g : failed_) is_chosen[g] = 1;
     const auto num_left = pad_needs(padding.state, padding.boundary,
@@ -96,7 +96,7 @@ class SheetChooser {
     for (int restart = 0; restart < kMaxRestarts && num_futile < kMaxFutileRestarts; ++restart) {
       SelectivePadding attempt = start_;
       attempt.report.num_restarts = static_cast<std::size_t>(restart);
-      const std::vector<GroupId> failed = extrude_all(attempt, todo);
+      const std::vector<GroupId> failed = pad_groups(attempt, todo);
       for (GroupId g : failed) attempt.report.num_failed_quads += groups_.num_quads[g];
       attempt.report.num_sheets = todo.size() - failed.size();
       ++num_futile;
@@ -150,16 +150,16 @@ class SheetChooser {
   }
 
   /// Returns the groups that got no sheet.
-  std::vector<GroupId> extrude_all(SelectivePadding& attempt, std::vector<GroupId> todo) const {
+  std::vector<GroupId> pad_groups(SelectivePadding& attempt, std::vector<GroupId> todo) const {
     std::vector<GroupId> failed;
     while (!todo.empty()) {
       context_.check_cancelled();
       const std::size_t num_old_verts = attempt.state.num_verts();
       const std::vector<GroupId> batch = take_batch(attempt, todo);
-      std::vector<GroupId> unfit = extrude(attempt, batch);
+      std::vector<GroupId> unfit = pad_batch(attempt, batch);
       if (!unfit.empty()) {
         relax(attempt.state, copies_near(attempt, unfit), kSweepsBeforeRetry);
-        unfit = extrude(attempt, unfit);
+        unfit = pad_batch(attempt, unfit);
       }
       failed.insert(failed.end(), unfit.begin(), unfit.end());
       relax(attempt.state, copies_from(attempt.state, num_old_verts), kSweepsAfterBatch);
@@ -168,15 +168,15 @@ class SheetChooser {
   }
 
   /// Returns the groups of the batch whose sheets do not fit.
-  std::vector<GroupId> extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) const {
+  std::vector<GroupId> pad_batch(SelectivePadding& attempt,
+                                 const std::vector<GroupId>& batch) const {
     IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetSets::kNone);
     for (std::size_t i = 0; i < batch.size(); ++i) group_to_sheet[batch[i]] = static_cast<int>(i);
     SheetSets sets;
     sets.num_sheets = batch.size();
     for (RegionId r : attempt.boundary.quad_to_region)
       sets.quad_to_sheet.push_back(group_to_sheet[groups_.region_to_group[r]]);
-    const auto is_done =
-        fitting::pad(attempt.state, attempt.boundary, *target_.features, sets).is_done;
+    const auto is_done = pad(attempt.state, attempt.boundary, *target_.features, sets).is_done;
     std::vector<GroupId> unfit;
     for (std::size_t i = 0; i < batch.size(); ++i)
       if (!is_done[i]) unfit.push_back(batch[i]);

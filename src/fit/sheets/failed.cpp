@@ -42,14 +42,14 @@ void run_locally(FitState& state, const std::vector<char>& region, const FitTarg
 SqueezedReport pad_failed_quads(FitState& state, BoundaryState& boundary, const FitTarget& target,
                                 const FailedOptions& options, const Context& context) {
   update_targets(state, target, 0);
-  SqueezedOptions pillow;
-  pillow.whole_regions = false;
-  pillow.is_wanted = find_failed(state, options);
-  const std::size_t num_failed = count(pillow.is_wanted);
+  SqueezedOptions squeezed;
+  squeezed.whole_regions = false;
+  squeezed.is_wanted = find_failed(state, options);
+  const std::size_t num_failed = count(squeezed.is_wanted);
   if (num_failed == 0) return {};
   FitState tried = state;
   BoundaryState tried_boundary = boundary;
-  const SqueezedReport report = pad_squeezed_quads(tried, tried_boundary, pillow);
+  const SqueezedReport report = pad_squeezed_quads(tried, tried_boundary, squeezed);
   if (report.num_sheets == 0) return report;
   std::vector<char> region(tried.num_verts(), 0);
   for (std::size_t v = state.num_verts(); v < region.size(); ++v) region[v] = 1;

@@ -1,6 +1,6 @@
 // A smooth edge with one hex around it, in a region that is otherwise in line with the grid, is
-// mended by pillowing that hex: the sheet covers the boundary quads of the group and the inner
-// faces. Of a wrapped row of hexes that takes about four new hexes each, of a layer one per quad.
+// mended by a sheet around that hex: the sheet covers the boundary quads of the group and the inner
+// faces. Around a row of hexes that takes about four new hexes each, of a layer one per quad.
 #include "fit/sheets/pad_needs.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void for_each_hex_in_need(const FitState& state, VertId a, VertId b, Visit&& vis
 /// What the rounds of insertion have learned; vertex ids survive them.
 struct Experience {
   std::vector<char> takes_all;  ///< vertices at which a set takes in every hex once it has one
-  std::set<std::tuple<GroupId, VertId, VertId>> wrapped;  ///< needs that got a sheet already
+  std::set<std::tuple<GroupId, VertId, VertId>> served;  ///< needs that got a sheet already
 };
 
 /// The sets of hexes that one mesh calls for.
@@ -95,7 +95,7 @@ class SetMaker {
       if (groups_.region_to_group[boundary_.quad_to_region[it->second]] == g) visit(it->second);
   }
 
-  /// The hexes in need of a group, and those that have to be wrapped with them, ascending.
+  /// The hexes in need of a group, and those that have to go with them, ascending.
   std::vector<HexId> collect(GroupId g) {
     std::vector<HexId> hexes;
     const auto take = [&](HexId h) {
@@ -109,7 +109,7 @@ class SetMaker {
     const auto [first, last] =
         std::equal_range(needs_.begin(), needs_.end(), PaddingNeed{g, {}, {}}, by_group);
     for (auto need = first; need != last; ++need)
-      if (experience_.wrapped.count({g, need->a, need->b}) == 0)
+      if (experience_.served.count({g, need->a, need->b}) == 0)
         for_each_hex_in_need(state_, need->a, need->b, take);
     for (std::size_t i = 0; i < hexes.size(); ++i) {  // grows
       const auto hex = state_.mesh.hexes[hexes[i]];
@@ -124,7 +124,7 @@ class SetMaker {
   }
 
   /// Three hexes around a smooth edge would be four or five flat ones after one or two of them
-  /// were wrapped without the others, and two after all are.
+  /// got a sheet without the others, and two after all are.
   template <class Take>
   void take_around_concave_edge(VertId a, VertId b, Take&& take) const {
     constexpr std::size_t kConcave = 3;
@@ -210,7 +210,7 @@ IdVector<GroupId, int> pad_needs(FitState& state, BoundaryState& boundary,
     for (std::size_t i = 0; i < served.size(); ++i) {
       if (served[i] < 0 || outcome.is_done[static_cast<std::size_t>(served[i])] == 0) continue;
       const PaddingNeed& need = sets.needs()[i];
-      is_progress |= experience.wrapped.insert({need.group, need.a, need.b}).second;
+      is_progress |= experience.served.insert({need.group, need.a, need.b}).second;
     }
     for (VertId v : outcome.blocked) {
       is_progress = is_progress || experience.takes_all[v.index()] == 0;

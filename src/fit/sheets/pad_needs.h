@@ -15,14 +15,14 @@ struct PaddingInput {
 };
 
 /// Per group: hexes that sheets around what is in need would take; absent where they would not do:
-/// a wrapped hex at a concave curve meets it worse than a layer.
+/// a hex with a sheet around it at a concave curve meets it worse than a layer.
 IdVector<GroupId, std::optional<std::size_t>> count_local_hexes(const FitState& state,
                                                                 const BoundaryState& boundary,
                                                                 const PaddingInput& input);
 
-/// Wraps the hexes in need of the groups chosen, until none is left or nothing more can be done.
-/// Where a sheet cannot pass a vertex its set takes in all hexes there. Returns the needs that
-/// remain, per group.
+/// Pads around the hexes in need of the groups chosen, until none is left or nothing more can be
+/// done. Where a sheet cannot pass a vertex its set takes in all hexes there. Returns the needs
+/// that remain, per group.
 IdVector<GroupId, int> pad_needs(FitState& state, BoundaryState& boundary,
                                  const PaddingInput& input,
                                  const IdVector<GroupId, char>& is_chosen);

@@ -1,4 +1,4 @@
-// Pillows under squeezed quads, many at a time: sets that share no vertex go in together, so that
+// Sheets under squeezed quads, many at a time: sets that share no vertex go in together, so that
 // the adjacency is rebuilt once per batch.
 #include "fit/sheets/squeezed.h"
 
@@ -50,7 +50,7 @@ std::vector<std::pair<VertId, RegionId>> keys_of(const FitState& state,
   return keys;
 }
 
-/// Squeezed quads that were not tried, by region or, for local pillows, in clusters of a region
+/// Squeezed quads that were not tried, by region or, for local sheets, in clusters of a region
 /// whose surroundings touch.
 class JobMaker {
  public:

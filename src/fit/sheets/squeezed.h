@@ -20,7 +20,7 @@ unsigned squeezed_corners(const FitState& state, const BoundaryState& boundary, 
                           double corner_angle);
 
 struct SqueezedOptions {
-  bool whole_regions = true;  ///< pillow all of a region with squeezed quads; else only around them
+  bool whole_regions = true;  ///< pad all of a region with squeezed quads; else only around them
   int ring = 1;               ///< vertex rings around squeezed quads, when not whole regions
   double corner_angle = 140 * std::numbers::pi / 180;  ///< radians
   /// Squeezed corners at other vertices are left alone; empty = none are. One entry per vertex.
@@ -32,7 +32,7 @@ struct SqueezedReport {
   std::size_t num_sheets = 0, num_skipped = 0, num_hexes = 0;
 };
 
-/// Pillows what is squeezed; the state is rebuilt. Sizes are those of the present positions.
+/// Pads what is squeezed; state and boundary are rebuilt. Sizes are those of the present positions.
 SqueezedReport pad_squeezed_quads(FitState& state, BoundaryState& boundary,
                                   const SqueezedOptions& options);
 

@@ -1,4 +1,4 @@
-// Which hexes a pillow under squeezed quads takes, and the sheet around them.
+// Which hexes a sheet under squeezed quads goes around, and the sheet around them.
 #pragma once
 
 #include "fit/carve/set_check.h"
@@ -13,7 +13,7 @@ struct SqueezedJob {
   std::vector<QuadId> quads;  ///< squeezed ones, of the state the job was made in
 };
 
-/// Finds sets that can be pillowed in one state of the mesh.
+/// Finds sets that can be padded in one state of the mesh.
 class SqueezedPlanner {
  public:
   SqueezedPlanner(const FitState& state, const BoundaryState& boundary,
