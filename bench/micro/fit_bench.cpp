@@ -11,6 +11,7 @@
 namespace {
 
 using namespace hexwright;
+using namespace hexwright::relax;
 
 void solve_vertices(benchmark::State& state) {
   HexMesh mesh = test::box_hex_mesh(20, 20, 20);

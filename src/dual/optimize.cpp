@@ -19,6 +19,8 @@
 
 namespace hexwright::dual {
 
+using namespace relax;
+
 namespace {
 
 // One way of improving what is bad: hexes whose scaled Jacobian is below `goal`.

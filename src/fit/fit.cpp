@@ -29,6 +29,7 @@ namespace hexwright {
 namespace {
 
 using namespace fitting;
+using namespace relax;
 
 // How a mesh goes from the carve's staircase to the surface: rising attachment weights and the
 // sweeps at each. A scaffold that curves are mapped on need not arrive as closely as one that

@@ -23,9 +23,10 @@
 namespace hexwright::polycube {
 namespace {
 
-using fitting::FitState;
-using fitting::FitTarget;
-using fitting::VertKind;
+using relax::FitState;
+using relax::FitTarget;
+using relax::MoveIn;
+using relax::VertKind;
 
 constexpr double kClearlyPositive = 0.02;  // scaled Jacobian above which a hex is left alone
 constexpr int kMaxSlidingRounds = 12;
@@ -106,7 +107,7 @@ void untangle_inside(FitState& state, const Context& context) {
   const auto move = state.move;
   for (VertId v : state.kind.ids())
     if (state.is_boundary(v)) state.move[v] = MoveIn::Point;
-  fitting::untangle(state, context);
+  relax::untangle(state, context);
   state.move = move;
 }
 
@@ -117,13 +118,13 @@ void untangle_sliding(FitState& state, const FitTarget& target, double weight,
     context.check_cancelled();
     auto is_member = verts_of_bad_hexes(state);
     if (is_member.empty()) return;
-    fitting::grow_vert_set(state, is_member, 2 + round / 4);
-    const fitting::LocalSweep local(state, is_member);
-    fitting::SweepOptions options;
+    relax::grow_vert_set(state, is_member, 2 + round / 4);
+    const relax::LocalSweep local(state, is_member);
+    relax::SweepOptions options;
     options.untangle_share = round % 2 == 0 ? 0.1 : 0.01;
     options.weight = weight;
     for (int k = 0; k < 3; ++k) {
-      fitting::update_targets(state, target, 0, is_member);
+      relax::update_targets(state, target, 0, is_member);
       local.run(state, options);
     }
   }
@@ -138,13 +139,12 @@ void untangle(FitState& state, const FitTarget& target, const Context& context) 
 
 // Brings back what the untangling took off the surface, as far as no hex inverts.
 void pull_to_surface(FitState& state, const FitTarget& target, const Context& context) {
-  fitting::update_targets(state, target, 0);
+  relax::update_targets(state, target, 0);
   bool is_off = false;
   for (VertId v : state.kind.ids()) is_off |= state.is_boundary(v) && state.residual(v) > 0.02;
   if (!is_off) return;
-  fitting::run_schedule(state, target,
-                        {{0.9, 1, 0}, fitting::geometric_weights(10, 1e5, 5), 2, 0.03, false},
-                        context);
+  relax::run_schedule(state, target,
+                      {{0.9, 1, 0}, relax::geometric_weights(10, 1e5, 5), 2, 0.03, false}, context);
 }
 
 // Where the polycube has an edge and the object is smooth, the two faces beside the edge belong to
@@ -154,9 +154,8 @@ void pad_and_smooth(FitState& state, const FitTarget& target, const Context& con
     context.warn("no layer fits under the mesh's boundary; it is optimised without padding");
     return;
   }
-  fitting::run_schedule(state, target,
-                        {{0.9, 1, 0}, fitting::geometric_weights(300, 1e5, 4), 2, 0.03, false},
-                        context);
+  relax::run_schedule(
+      state, target, {{0.9, 1, 0}, relax::geometric_weights(300, 1e5, 4), 2, 0.03, false}, context);
 }
 
 // Vertices farther than `distance` from what they belong to.
@@ -172,14 +171,14 @@ std::vector<char> find_far(const FitState& state, double distance) {
 void improve_worst(FitState& state, const FitTarget& target, double near_surface,
                    const Context& context) {
   constexpr double kGentle = 0.4, kLeast = 0.15;  // scaled Jacobians
-  fitting::polish_worst(state, target, {}, context);
-  fitting::snap_to_targets(state, target, kGentle);
-  fitting::lift_worst(state, target, {}, context);
-  fitting::snap_to_targets(state, target, kGentle);
+  relax::polish_worst(state, target, {}, context);
+  relax::snap_to_targets(state, target, kGentle);
+  relax::lift_worst(state, target, {}, context);
+  relax::snap_to_targets(state, target, kGentle);
   const auto is_far = find_far(state, near_surface);
   if (std::find(is_far.begin(), is_far.end(), 1) == is_far.end()) return;
-  fitting::snap_to_targets(state, target, kLeast, is_far);
-  fitting::lift_worst(state, target, {}, context);
+  relax::snap_to_targets(state, target, kLeast, is_far);
+  relax::lift_worst(state, target, {}, context);
 }
 
 PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, PatchId>& patch) {

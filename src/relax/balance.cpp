@@ -11,7 +11,7 @@
 
 #include "hexwright/base/parallel.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 constexpr double kGauss = 0.21132486540518712;  // (1 - 1/sqrt 3) / 2
@@ -148,4 +148,4 @@ void balance_offsets(FitState& state, const FitTarget& target, const BalanceOpti
   Balance(state, target).run(options);
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

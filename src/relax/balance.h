@@ -5,7 +5,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 struct BalanceOptions {
   double max_offset = 0.1;  ///< in h
@@ -17,4 +17,4 @@ struct BalanceOptions {
 /// Requires up-to-date targets.
 void balance_offsets(FitState& state, const FitTarget& target, const BalanceOptions& options = {});
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 IdVector<VertId, double> compute_edge_lengths(IdSpan<VertId, const Vec3> positions,
                                               IdSpan<QuadId, const std::array<VertId, 4>> quads) {
@@ -121,4 +121,4 @@ BoundaryEdgeId BoundaryGraph::find_edge(VertId a, VertId b) const {
   return edges(a)[static_cast<std::size_t>(it - candidates.begin())];
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

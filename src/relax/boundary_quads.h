@@ -9,7 +9,7 @@
 #include "hexwright/base/vec3.h"
 #include "hexwright/mesh/element_ids.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 using BoundaryEdgeId = Id<struct BoundaryEdgeTag>;  ///< edge of the boundary quads
 
@@ -67,4 +67,4 @@ class BoundaryGraph {
   std::vector<QuadId> star_quads_;
 };
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 constexpr double kWindow = 1.5;  // sizes around the parameter
@@ -34,4 +34,4 @@ void update_feature_target(FitState& state, VertId v, const TriMesh& surface,
   state.direction[v] = p.tangent;
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

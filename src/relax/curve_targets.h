@@ -3,7 +3,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// Sets target and direction of a Curve or Corner vertex and marks it dirty.
 /// `hold` in [0, 1]: 1 holds a curve vertex at its parameter, less lets it glide along the tangent
@@ -12,4 +12,4 @@ namespace hexwright::fitting {
 void update_feature_target(FitState& state, VertId v, const TriMesh& surface,
                            const FeatureGraph& features, double hold);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

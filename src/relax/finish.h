@@ -6,7 +6,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// Adds `rings` rings of hex-neighbours to a set of vertices.
 void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings);
@@ -72,4 +72,4 @@ void raise_average(FitState& state, const FitTarget& target, const AverageOption
 /// surface around them more and more; returns those that remain.
 std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 double FitState::residual(VertId v) const {
   const Vec3 y = mesh.positions[v] - target[v];
@@ -110,4 +110,4 @@ void FitState::update_sizes() {
   }
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -13,7 +13,7 @@
 
 #include "relax/vertex_newton.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// What part of the surface a vertex belongs to. Interior vertices belong to none.
 enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
@@ -90,4 +90,4 @@ struct FitTarget {
   const FeatureGraph* features = nullptr;
 };
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -5,7 +5,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 // A corner at a held vertex with one free neighbour: the cross product of its two held unit edges,
@@ -101,4 +101,4 @@ QualityBound bound_quality(const HexMesh& mesh, const VertToHex& vert_to_hex,
       [](const QualityBound& a, const QualityBound& b) { return b.value < a.value ? b : a; });
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -3,7 +3,7 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 struct QualityBound {
   double value = 1;  ///< no placement of the free vertices gives a larger least scaled Jacobian
@@ -17,4 +17,4 @@ struct QualityBound {
 QualityBound bound_quality(const HexMesh& mesh, const VertToHex& vert_to_hex,
                            const IdVector<VertId, char>& is_held);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

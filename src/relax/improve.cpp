@@ -18,7 +18,7 @@
 namespace hexwright {
 namespace {
 
-using namespace fitting;
+using namespace relax;
 
 constexpr double kSharpCosine = 0.766;  // boundary edges bent by more than 40 degrees stay
 

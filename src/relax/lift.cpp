@@ -11,7 +11,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 struct Score {
@@ -133,4 +133,4 @@ void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& opt
   Lifter(state, target, options).run(context);
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -11,7 +11,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 constexpr double kMaxResidual = 0.05;  // in h: a proof is not worth more distance
@@ -76,4 +76,4 @@ std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const
   return unproven;
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

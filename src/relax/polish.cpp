@@ -5,7 +5,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 void polish_worst(FitState& state, const FitTarget& target, const PolishOptions& options,
                   const Context& context) {
@@ -27,4 +27,4 @@ void polish_worst(FitState& state, const FitTarget& target, const PolishOptions&
   }
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -3,7 +3,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 bool is_proven(const HexMesh& mesh, HexId h) {
@@ -28,4 +28,4 @@ int count_unproven_around(const FitState& state, VertId v) {
   return count;
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -5,7 +5,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// Hexes whose Jacobian is not proven positive everywhere inside, in order.
 std::vector<HexId> find_unproven(const HexMesh& mesh);
@@ -17,4 +17,4 @@ constexpr double kProvenQuality = 0.5;
 /// How many of them are at the vertex.
 int count_unproven_around(const FitState& state, VertId v);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

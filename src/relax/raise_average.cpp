@@ -18,7 +18,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 double integer_power(double x, int n) {
@@ -85,4 +85,4 @@ void raise_average(FitState& state, const FitTarget& target, const AverageOption
   snap_to_targets(state, target, least);
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -6,7 +6,7 @@
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings) {
   std::vector<VertId> front;
@@ -57,4 +57,4 @@ void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& o
   }
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -3,7 +3,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// While it lives, the boundary vertices of a region (one entry per vertex) move in the tangent
 /// plane of the surface or along the tangent of their curve only (`hold_curves`: not at all);
@@ -32,4 +32,4 @@ class SlideOnly {
   std::vector<VertId> verts_;
 };
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

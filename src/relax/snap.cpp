@@ -7,7 +7,7 @@
 #include "relax/proof.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 /// Goes a share of the way to the target; stays, and returns false, where that costs too much.
@@ -64,4 +64,4 @@ std::size_t meet_corners(FitState& state, double tolerance, double least_quality
   return num_moved;
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -9,7 +9,7 @@
 #include "relax/proof.h"
 #include "relax/targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 VertexGoal make_goal(const FitState& state, VertId v, double weight) {
@@ -201,4 +201,4 @@ void run_schedule(FitState& state, const FitTarget& target, const Schedule& sche
   }
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -6,7 +6,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// The share of h below which passes that weigh scaled Jacobians alone let no edge shrink.
 constexpr double kEdgeFloor = 0.15;
@@ -64,4 +64,4 @@ std::vector<double> geometric_weights(double first, double last, int count);
 void run_schedule(FitState& state, const FitTarget& target, const Schedule& schedule,
                   const Context& context);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

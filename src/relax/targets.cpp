@@ -8,7 +8,7 @@
 
 #include "relax/curve_targets.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 // A vertex that moved by less than this, in h, since it last looked keeps its target: what it is
@@ -129,4 +129,4 @@ void update_targets(FitState& state, const FitTarget& target, double hold,
       64);
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -5,7 +5,7 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// Sets target and direction of the boundary vertices (of those with only[v] != 0 when `only` is
 /// not empty) from their present positions, and marks a vertex dirty when its target moved.
@@ -13,4 +13,4 @@ namespace hexwright::fitting {
 void update_targets(FitState& state, const FitTarget& target, double hold,
                     std::span<const char> only = {});
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -9,7 +9,7 @@
 #include "relax/finish.h"
 #include "relax/sweep.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 namespace {
 
 std::vector<char> verts_of_inverted(const FitState& state, std::size_t& num_inverted) {
@@ -44,4 +44,4 @@ std::size_t untangle(FitState& state, const Context& context) {
   return num_inverted;
 }
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

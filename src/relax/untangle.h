@@ -5,10 +5,10 @@
 
 #include "relax/fit_state.h"
 
-namespace hexwright::fitting {
+namespace hexwright::relax {
 
 /// Works on growing surroundings of the inverted hexes with a regularised energy. Returns how many
 /// hexes have a corner determinant that is not positive in the end.
 std::size_t untangle(FitState& state, const Context& context);
 
-}  // namespace hexwright::fitting
+}  // namespace hexwright::relax

@@ -27,7 +27,7 @@
 #define HEXWRIGHT_LANE_INLINE inline
 #endif
 
-namespace hexwright {
+namespace hexwright::relax {
 namespace {
 
 #if defined(__GNUC__)
@@ -444,4 +444,4 @@ HEXWRIGHT_LANE_CLONES double min_scaled_jacobian_around(const Vec3& position,
   return result;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::relax

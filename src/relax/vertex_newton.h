@@ -16,7 +16,7 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
-namespace hexwright {
+namespace hexwright::relax {
 
 struct ShapeEnergy {
   double blend = 0;  ///< share of the scaled-Jacobian term, in [0, 1]
@@ -115,4 +115,4 @@ class VertexColors {
   std::vector<VertId> verts_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::relax

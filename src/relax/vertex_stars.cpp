@@ -3,7 +3,7 @@
 
 #include "relax/vertex_newton.h"
 
-namespace hexwright {
+namespace hexwright::relax {
 namespace {
 
 // Per local vertex: its edge neighbours n0 n1 n2, then the diagonals d01 d12 d20, by the bits of
@@ -70,4 +70,4 @@ VertexColors::VertexColors(const HexMesh& mesh, const VertToHex& vert_to_hex) {
     if (color[v] >= 0) verts_[next[static_cast<std::size_t>(color[v])]++] = VertId(v);
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::relax

@@ -14,7 +14,7 @@
 
 namespace hexwright::test {
 
-using fitting::BoundaryQuads;
+using relax::BoundaryQuads;
 
 /// Boundary quads that own their arrays.
 struct OwnedBoundary {
@@ -33,9 +33,8 @@ inline OwnedBoundary boundary_of(const HexMesh& mesh) {
   b.positions = mesh.positions;
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
     b.quads.push_back(face_verts(mesh, face));
-  b.edge_length =
-      fitting::compute_edge_lengths(IdSpan<VertId, const Vec3>(b.positions),
-                                    IdSpan<QuadId, const std::array<VertId, 4>>(b.quads));
+  b.edge_length = relax::compute_edge_lengths(IdSpan<VertId, const Vec3>(b.positions),
+                                              IdSpan<QuadId, const std::array<VertId, 4>>(b.quads));
   return b;
 }
 

@@ -12,6 +12,8 @@
 namespace hexwright::fitting {
 namespace {
 
+using namespace relax;
+
 /// A curve of a given length between two surface vertices; a loop when they are the same.
 FeatureCurve curve_between(int first, int last, double length) {
   FeatureCurve curve;

@@ -17,6 +17,7 @@ namespace hexwright {
 namespace {
 
 using namespace fitting;
+using namespace relax;
 
 TEST(PadBoundary, AddsOneValidHexPerBoundaryQuad) {
   std::mt19937 rng(4);

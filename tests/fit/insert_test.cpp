@@ -11,6 +11,8 @@
 namespace hexwright::fitting {
 namespace {
 
+using namespace relax;
+
 double min_jacobian(const HexMesh& mesh) {
   double least = 1;
   for (HexId h : mesh.hexes.ids())

@@ -12,6 +12,8 @@
 namespace hexwright::fitting {
 namespace {
 
+using namespace relax;
+
 using test::OwnedBoundary;
 
 /// First violated rule of a mapping; empty when all hold.

@@ -14,6 +14,8 @@
 namespace hexwright::fitting {
 namespace {
 
+using namespace relax;
+
 double min_jacobian(const HexMesh& mesh) {
   const auto quality = compute_scaled_jacobians(mesh);
   return *std::min_element(quality.begin(), quality.end());

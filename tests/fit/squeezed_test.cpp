@@ -10,6 +10,9 @@
 #include "relax/sweep.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
+
 namespace {
 
 double min_jacobian(const HexMesh& mesh) {

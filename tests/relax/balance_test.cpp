@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hexwright/fit/carve.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/surface_distance.h"
 
@@ -15,6 +16,7 @@ namespace hexwright {
 namespace {
 
 using namespace fitting;
+using namespace relax;
 
 // A mesh whose boundary vertices are on the surface.
 FitState fitted_to(const SurfaceTree& surface, double h) {

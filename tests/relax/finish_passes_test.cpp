@@ -15,6 +15,7 @@ namespace hexwright {
 namespace {
 
 using namespace fitting;
+using namespace relax;
 
 /// A padded ball, its boundary on the surface as far as the schedule takes it.
 FitState fitted_ball(const SurfaceTree& sphere) {

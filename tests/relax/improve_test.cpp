@@ -11,6 +11,8 @@
 namespace hexwright {
 namespace {
 
+using namespace relax;
+
 HexMesh jittered_box(int n, double amount, std::mt19937& rng, bool also_boundary) {
   HexMesh mesh = test::box_hex_mesh(n, n, n);
   std::uniform_real_distribution<double> offset(-amount, amount);
@@ -69,7 +71,7 @@ TEST(Improve, BoundHoldsForRandomPlacements) {
     const VertToHex vert_to_hex(mesh);
     IdVector<VertId, char> is_held(mesh.num_verts(), 1);
     is_held[VertId(13)] = 0;
-    const double bound = fitting::bound_quality(mesh, vert_to_hex, is_held).value;
+    const double bound = relax::bound_quality(mesh, vert_to_hex, is_held).value;
     std::normal_distribution<double> offset(0, 0.3);
     for (int k = 0; k < 100; ++k) {
       HexMesh moved = mesh;

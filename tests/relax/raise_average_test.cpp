@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "hexwright/fit/carve.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/fit_helpers.h"
@@ -13,6 +14,7 @@ namespace hexwright {
 namespace {
 
 using namespace fitting;
+using namespace relax;
 
 FitState fitted_torus(const SurfaceTree& torus) {
   const HexMesh grid = test::grid_around(torus.box(), 0.16);

@@ -10,7 +10,7 @@
 namespace hexwright {
 namespace {
 
-using namespace fitting;
+using namespace relax;
 
 /// A block of unit hexes whose vertex at the origin is a corner with a feature point elsewhere.
 FitState block_with_corner_at(const Vec3& feature_point) {

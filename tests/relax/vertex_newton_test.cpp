@@ -10,6 +10,8 @@
 namespace hexwright {
 namespace {
 
+using namespace relax;
+
 // A 2x2x2 block whose vertices are moved by up to `amount` of an edge.
 HexMesh jittered_block(std::mt19937& rng, double amount) {
   HexMesh mesh = test::box_hex_mesh(2, 2, 2);

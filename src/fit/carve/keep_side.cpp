@@ -3,6 +3,8 @@
 #include "hexwright/fit/carve.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 // The background's outer faces on the kept mesh: hexes keep their order, faces their numbers.

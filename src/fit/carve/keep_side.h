@@ -5,6 +5,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// `is_inside`: per hex of the background. Inside: those hexes. Outside: the others. Both: all,
 /// with region tags. Vertices on the background's own boundary may move only in the planes of its
 /// faces (along an edge, not at all at a corner) except with Inside, where they are like any

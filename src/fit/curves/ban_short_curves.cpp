@@ -7,6 +7,8 @@
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr int kRounds = 3;

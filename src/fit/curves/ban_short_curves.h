@@ -8,6 +8,8 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryQuads;
+
 /// Marks in `is_banned` (one entry per curve) the curves that end freely, and connected sets of
 /// curves, shorter than `min_edges` edges of the mesh around them. Three rounds: what remains may
 /// end freely then. Returns which curves were marked here.

@@ -10,6 +10,11 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryEdgeId;
+using relax::BoundaryGraph;
+using relax::BoundaryQuads;
+using relax::FitState;
+
 /// The region of a quad that is known by its vertices.
 struct QuadLabel {
   std::array<VertId, 4> verts;  ///< ascending

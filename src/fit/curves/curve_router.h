@@ -12,6 +12,9 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryGraph;
+using relax::BoundaryQuads;
+
 /// What the router works on; all of it outlives the router.
 struct RoutingProblem {
   const BoundaryQuads& boundary;

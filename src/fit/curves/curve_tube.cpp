@@ -5,6 +5,8 @@
 #include <tuple>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 struct Candidate {

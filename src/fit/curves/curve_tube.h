@@ -9,6 +9,8 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryQuads;
+
 struct TubeVert {
   VertId vert;
   double distance = 0;  ///< to the curve, in edge lengths of the vertex

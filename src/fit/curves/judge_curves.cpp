@@ -4,6 +4,8 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 /// The shortest mapped curve that ends at a surface vertex.

@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// Requires up-to-date targets.
 struct CurveVerdicts {
   IdVector<CurveId, double> residual;  ///< largest distance of a vertex from its curve or corner,

@@ -11,6 +11,8 @@
 #include "fit/curves/curve_router.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kMinSpacing = 0.2;  // of the mean spacing, between consecutive parameters

@@ -14,6 +14,8 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryQuads;
+
 struct FeatureMapOptions {
   double corner_reach = 2.5;  ///< a corner's vertex is at most so many edge lengths away
   double tube_reach = 2.2;    ///< so is every vertex of a path from its curve

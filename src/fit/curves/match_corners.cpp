@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using namespace relax;
+
 CornerEnds find_corner_ends(const FeatureGraph& features,
                             const IdVector<CurveId, char>& is_banned) {
   CornerEnds ends;

@@ -9,6 +9,9 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryGraph;
+using relax::BoundaryQuads;
+
 /// Which curves end at which corner.
 struct CornerEnds {
   /// Per curve: index of the first and last corner in FeatureGraph::corners, -1 on a loop.

@@ -7,6 +7,8 @@
 #include "hexwright/base/parallel.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 struct Ballot {

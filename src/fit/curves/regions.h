@@ -10,6 +10,10 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryEdgeId;
+using relax::BoundaryGraph;
+using relax::BoundaryQuads;
+
 using RegionId = Id<struct RegionTag>;  ///< connected set of boundary quads between marked edges
 
 /// Mesh edges on curves, sorted by their (ascending) vertices. The labels of a HexMesh have the

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr std::size_t kLeafSize = 8;

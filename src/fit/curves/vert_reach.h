@@ -8,6 +8,8 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryQuads;
+
 /// A tree over boxes of half width `reach` x edge length around vertices.
 class VertReach {
  public:

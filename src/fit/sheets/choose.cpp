@@ -15,6 +15,8 @@
 #include "relax/targets.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr int kMaxRestarts = 6;

@@ -8,6 +8,9 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+using relax::FitTarget;
+
 struct SelectivePaddingReport {
   std::size_t num_groups = 0;        ///< groups of regions
   std::size_t num_needed = 0;        ///< of them need a sheet

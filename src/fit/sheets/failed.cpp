@@ -8,6 +8,8 @@
 #include "relax/targets.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 std::vector<char> find_failed(const FitState& state, const FailedOptions& options) {

@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitTarget;
+
 struct FailedOptions {
   double low = 0.2;         ///< scaled Jacobian around a curve vertex below which it has failed
   double stuck = 0.02;      ///< residual, in sizes, above which it has

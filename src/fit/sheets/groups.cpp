@@ -7,6 +7,8 @@
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kConvexShare = 0.9;  // of a curve's length, from which sheets may end on it

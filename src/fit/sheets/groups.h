@@ -5,6 +5,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 using GroupId = Id<struct PaddingGroupTag>;  ///< regions that one sheet covers
 
 struct PaddingGroups {

@@ -13,6 +13,9 @@
 #include "fit/sheets/visible.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
+
 namespace {
 
 constexpr double kLeastCosine = 0.01;

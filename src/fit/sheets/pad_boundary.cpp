@@ -9,6 +9,9 @@
 #include "fit/sheets/visible.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
+
 namespace {
 
 /// The face of a boundary quad on the side of the hexes with a region tag; absent when neither has.

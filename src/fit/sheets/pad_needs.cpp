@@ -10,6 +10,8 @@
 #include "fit/sheets/pad.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr int kMaxRounds = 8;

@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using namespace relax;
+
 QuadFans find_quad_fans(const BoundaryState& boundary, VertId v,
                         FunctionRef<bool(QuadId)> is_inside) {
   const auto quads = boundary.graph.quads(v);

@@ -9,6 +9,8 @@
 
 namespace hexwright::fitting {
 
+using relax::BoundaryEdgeId;
+
 struct QuadFans {
   int num_inside = 0;   ///< edge-connected fans of the set's quads at the vertex
   int num_outside = 0;  ///< and of the others

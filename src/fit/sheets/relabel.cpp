@@ -4,6 +4,9 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
+
+using namespace relax;
+
 namespace {
 
 class Relabeling {

@@ -13,6 +13,9 @@
 #include "geometry/surface_edges.h"
 
 namespace hexwright::fitting {
+
+using namespace relax;
+
 namespace {
 
 double angle_at(const FitState& state, const std::array<VertId, 4>& quad, std::size_t k) {

@@ -5,6 +5,8 @@
 
 namespace hexwright::fitting {
 
+using namespace relax;
+
 SqueezedPlanner::SqueezedPlanner(const FitState& state, const BoundaryState& boundary,
                                  const SqueezedOptions& options)
     : state_(state),

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 namespace hexwright::fitting {
+
+using namespace relax;
 namespace {
 
 constexpr double kEnough = 0.1;          // cosine to stop at

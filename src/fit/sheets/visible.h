@@ -7,6 +7,8 @@
 
 namespace hexwright::fitting {
 
+using relax::FitState;
+
 /// Per vertex of the sheet: the direction that sees its faces there best.
 std::vector<VisibleDirection> find_visible_directions(const HexMesh& mesh, const Sheet& sheet);
 
