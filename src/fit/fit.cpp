@@ -16,10 +16,10 @@
 #include "fit/carve/keep_side.h"
 #include "fit/curves/judge_curves.h"
 #include "fit/pass_clock.h"
-#include "fit/sheets/feature_layers.h"
+#include "fit/sheets/choose.h"
+#include "fit/sheets/failed.h"
 #include "fit/sheets/pad_boundary.h"
-#include "fit/sheets/pillow_failed.h"
-#include "fit/sheets/selective_padding.h"
+#include "fit/sheets/squeezed.h"
 #include "relax/balance.h"
 #include "relax/finish.h"
 #include "relax/sweep.h"
@@ -33,7 +33,7 @@ using namespace relax;
 
 // How a mesh goes from the carve's staircase to the surface: rising attachment weights and the
 // sweeps at each. A scaffold that curves are mapped on need not arrive as closely as one that
-// stays, and the padded mesh after it has fit2 and fit3 to come; more sweeps there change the
+// stays, and the padded mesh after it has two more passes to come; more sweeps there change the
 // distances little and cost quality, because they press the staircase flat before its layers may
 // share the strain. Models without curves settle here, and in the closer fit after it, what their
 // least will be.
@@ -86,7 +86,7 @@ std::vector<Miss> find_misses(const FitState& state) {
 struct Attempt {
   FitState state;
   FeatureMapping mapping;
-  FeatureMarks marks;
+  BoundaryState boundary;
   CurveVerdicts verdicts;
 };
 
@@ -138,7 +138,7 @@ class Fitter {
         context_.warn("no layer fits under the mesh's boundary; it is fitted without padding");
     });
     clock_.run("find features", 0.25, [&] { find_features(scaffold); });
-    clock_.run("fit1", 0.3,
+    clock_.run("approach", 0.3,
                [&] { approach(scaffold, is_selective() ? kScaffold : kFinal, false); });
     Attempt result = fit_features(carved, scaffold);
     finish(result.state);
@@ -212,17 +212,17 @@ class Fitter {
     clock_.run("map features", 0.4, [&] { map_curves(map_options, a); });
     if (is_selective()) {
       bool is_new = false;
-      clock_.run("sheets", 0.42, [&] { is_new = pad(carved, a); });
-      if (is_new) clock_.run("fit1", 0.46, [&] { approach(a.state, kPadded, true); });
+      clock_.run("pad selectively", 0.42, [&] { is_new = pad(carved, a); });
+      if (is_new) clock_.run("approach", 0.46, [&] { approach(a.state, kPadded, true); });
     }
-    if (!features_.empty()) clock_.run("fit2", 0.5, [&] { fit_curves(a); });
-    clock_.run("fit3", 0.6, [&] { fit_closely(a.state); });
+    if (!features_.empty()) clock_.run("meet curves", 0.5, [&] { meet_curves(a); });
+    clock_.run("meet surface", 0.6, [&] { meet_surface(a.state); });
     clock_.run("refit", 0.7, [&] {
       refit_stuck(a.state, target(), is_selective() ? RefitOptions{} : kThoroughRefit, context_);
     });
     if (is_selective()) {
-      clock_.run("pillows", 0.8,
-                 [&] { pillow_failed_quads(a.state, a.marks, target(), {}, context_); });
+      clock_.run("pad squeezed", 0.8,
+                 [&] { pad_failed_quads(a.state, a.boundary, target(), {}, context_); });
     }
     update_targets(a.state, target(), 0);
     a.verdicts = judge_curves(a.state, features_, a.mapping);
@@ -237,34 +237,34 @@ class Fitter {
   void map_curves(const FeatureMapOptions& map_options, Attempt& a) {
     AttachedFeatures attached = attach_features(a.state, tree_, features_, map_options);
     a.mapping = std::move(attached.mapping);
-    a.marks = std::move(attached.marks);
+    a.boundary = std::move(attached.boundary);
   }
 
   // Back to the carved mesh, with sheets where the mapped curves need them. False when that is one
   // layer under everything, as on shapes whose curves separate nothing: that is the scaffold, which
   // is fitted already.
   bool pad(const FitState& carved, Attempt& a) {
-    SelectivePadding padded = pad_selectively(carved, a.state, a.marks, target(), context_);
+    SelectivePadding padded = choose_sheets(carved, a.state, a.boundary, target(), context_);
     if (padded.report.num_groups == 1 && padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes())
       return false;
     a.state = std::move(padded.state);
-    a.marks = std::move(padded.marks);
+    a.boundary = std::move(padded.boundary);
     return true;
   }
 
   // Onto the curves, with layers where the mesh needs them to follow the curves.
-  void fit_curves(Attempt& a) {
+  void meet_curves(Attempt& a) {
     const std::vector<double> weights = geometric_weights(3, 300, 5);
     run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
     if (is_selective() || a.state.side == Side::Both)
-      return;  // pillows come later; with both sides each would need a counterpart
-    if (pillow_squeezed_quads(a.state, a.marks, {}).num_pillows == 0) return;
+      return;  // sheets come later; with both sides each would need a counterpart
+    if (pad_squeezed_quads(a.state, a.boundary, {}).num_sheets == 0) return;
     a.state.update_sizes();
     run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, false}, context_);
   }
 
   // Onto the surface, and from the condition number's energy to the scaled Jacobian's.
-  void fit_closely(FitState& state) {
+  void meet_surface(FitState& state) {
     state.update_sizes();
     const Approach how = is_selective() ? kClosePadded : kClose;
     run_schedule(state, target(),
@@ -322,7 +322,7 @@ class Fitter {
     report_features(state, features_, result.mapping, report_);
     report_.num_hexes_padded = state.mesh.num_hexes();
     report_.misses = find_misses(state);
-    state.mesh.labels = make_labels(state, result.marks, tree_);
+    state.mesh.labels = make_labels(state, result.boundary, tree_);
     if (state.side ==
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);

@@ -35,6 +35,7 @@ class BoundaryGraph {
     QuadId other(QuadId q) const { return q == quads[0] ? quads[1] : quads[0]; }
   };
 
+  BoundaryGraph() : BoundaryGraph(0, {}) {}
   BoundaryGraph(std::size_t num_verts, IdSpan<QuadId, const std::array<VertId, 4>> quads);
 
   /// Vertices in at least one quad, ascending.

@@ -3,7 +3,7 @@
 
 #include "hexwright/fit/fit.h"
 
-#include "fit/curves/feature_marks.h"
+#include "fit/curves/boundary_state.h"
 
 namespace hexwright::fitting {
 

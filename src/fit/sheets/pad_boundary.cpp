@@ -2,10 +2,11 @@
 // that see all faces around them, so that a thin enough layer is always valid.
 #include "fit/sheets/pad_boundary.h"
 
+#include <algorithm>
 #include <optional>
 
-#include "fit/carve/set_check.h"
-#include "fit/sheets/insert_sheet.h"
+#include "fit/sheets/insert.h"
+#include "fit/sheets/visible.h"
 
 namespace hexwright::fitting {
 
@@ -13,50 +14,53 @@ using namespace relax;
 
 namespace {
 
-// The sheet along the faces between the hexes `takes_copy` and what is beyond them; absent when
-// some vertex's faces cannot be seen from any direction.
-std::optional<Sheet> make_sheet(const FitState& state, const std::vector<char>& takes_copy) {
-  SetCheck check(state.mesh, state.vert_to_hex, state.neighbors, true);
-  Sheet sheet;
-  for (HexFace face : state.quad_face) {
-    if (!takes_copy[face.hex.index()]) {  // the same face seen from its other hex
-      const HexId other = state.neighbors.neighbor[face.hex][static_cast<std::size_t>(face.lf)];
-      int lf = 0;
-      while (state.neighbors.neighbor[other][static_cast<std::size_t>(lf)] != face.hex) ++lf;
-      face = {other, lf};
-    }
-    sheet.quads.push_back(face_verts(state.mesh, face));
-    sheet.behind.push_back(face.hex);
-  }
-  sheet.verts = sheet_verts(sheet.quads);
-  for (VertId v : sheet.verts) {
-    const VisibleDirection visible = check.direction(v, takes_copy);
-    if (!(visible.cosine > 0)) return {};
-    sheet.directions.push_back(visible.direction);
-  }
-  return sheet;
+/// The face of a boundary quad on the side of the hexes with a region tag; absent when neither has.
+std::optional<HexFace> face_of_region(const FitState& state, const HexFace& face,
+                                      std::int32_t region) {
+  if (state.mesh.region[face.hex] == region) return face;
+  const HexId other = state.neighbors.neighbor[face.hex][static_cast<std::size_t>(face.lf)];
+  if (!other.is_valid() || state.mesh.region[other] != region) return {};
+  const auto& around = state.neighbors.neighbor[other];
+  return HexFace{
+      other, static_cast<int>(std::find(around.begin(), around.end(), face.hex) - around.begin())};
 }
 
-bool pad_hexes(FitState& state, const std::vector<char>& takes_copy) {
-  const auto sheet = make_sheet(state, takes_copy);
-  if (!sheet) return false;
-  const auto copies = insert_sheet(state.mesh, state.vert_to_hex, *sheet, takes_copy, 1e-7).copies;
-  if (copies.empty() && !sheet->quads.empty()) return false;
+/// False when some vertex's faces cannot be seen from any direction or no layer is thin enough.
+bool apply(FitState& state, SheetPlan plan) {
+  plan.sheet.collect_verts();
+  for (const auto& visible : find_visible_directions(state.mesh, plan.sheet)) {
+    if (!(visible.cosine > 0)) return false;
+    plan.directions.push_back(visible.direction);
+  }
+  if (insert_sheet(state.mesh, state.vert_to_hex, plan).copies.empty() && !plan.sheet.quads.empty())
+    return false;
   state.rebuild();
   return true;
+}
+
+bool pad_region(FitState& state, std::int32_t region) {
+  SheetPlan plan;
+  for (std::int32_t tag : state.mesh.region) plan.takes_copy.push_back(tag == region ? 1 : 0);
+  for (const HexFace& face : state.quad_face)
+    if (const auto seen = face_of_region(state, face, region))
+      plan.sheet.add_face(state.mesh, *seen);
+  return apply(state, std::move(plan));
 }
 
 }  // namespace
 
 bool pad_boundary(FitState& state) {
-  if (state.side != Side::Both)
-    return pad_hexes(state, std::vector<char>(state.mesh.num_hexes(), 1));
-  std::vector<char> half = state.inside_hexes();
-  const bool inside = pad_hexes(state, half);
-  half = state.inside_hexes();
-  for (char& x : half) x = !x;
-  const bool outside = pad_hexes(state, half);
-  return inside && outside;
+  if (state.side != Side::Both) {
+    SheetPlan plan;
+    for (const HexFace& face : state.quad_face) plan.sheet.add_face(state.mesh, face);
+    return apply(state, std::move(plan));
+  }
+  std::vector<std::int32_t> regions(state.mesh.region.begin(), state.mesh.region.end());
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  bool is_padded = true;
+  for (std::int32_t region : regions) is_padded &= pad_region(state, region);
+  return is_padded;
 }
 
 }  // namespace hexwright::fitting

@@ -5,7 +5,7 @@
 
 #include "hexwright/base/function_ref.h"
 
-#include "fit/sheets/feature_layers.h"
+#include "fit/curves/boundary_state.h"
 
 namespace hexwright::fitting {
 
@@ -17,6 +17,7 @@ struct QuadFans {
   std::vector<BoundaryEdgeId> marked_outside;  ///< marked edges between two of the others
 };
 
-QuadFans find_quad_fans(const MarkedGraph& marked, VertId v, FunctionRef<bool(QuadId)> is_inside);
+QuadFans find_quad_fans(const BoundaryState& boundary, VertId v,
+                        FunctionRef<bool(QuadId)> is_inside);
 
 }  // namespace hexwright::fitting

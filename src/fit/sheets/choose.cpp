@@ -1,15 +1,15 @@
 // Sheets go in in batches of groups without a common vertex; after each batch the surroundings of
 // its rim are relaxed, so that the next one finds room.
-#include "fit/sheets/selective_padding.h"
+#include "fit/sheets/choose.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "fit/curves/curve_convexity.h"
-#include "fit/sheets/extrude_regions.h"
-#include "fit/sheets/local_sheets.h"
-#include "fit/sheets/padding_groups.h"
+#include "fit/sheets/groups.h"
+#include "fit/sheets/pad.h"
+#include "fit/sheets/pad_needs.h"
 #include "relax/finish.h"
 #include "relax/sweep.h"
 #include "relax/targets.h"
@@ -33,8 +33,8 @@ constexpr std::size_t kLeastQuads = 100;
 constexpr double kLocalShare = 1.0 / 3;
 
 /// Kinds, places and marks of the scaffold's boundary on the carved mesh.
-void transfer_features(const FitState& scaffold, const FeatureMarks& scaffold_marks,
-                       FitState& state, FeatureMarks& marks) {
+void transfer_features(const FitState& scaffold, const BoundaryState& scaffold_boundary,
+                       FitState& state, BoundaryState& boundary) {
   for (VertId v : state.kind.ids()) {
     if (!state.is_boundary(v)) continue;
     state.kind[v] = scaffold.kind[v];
@@ -45,28 +45,28 @@ void transfer_features(const FitState& scaffold, const FeatureMarks& scaffold_ma
     state.target[v] = scaffold.target[v];
     state.direction[v] = scaffold.direction[v];
   }
-  marks.edges = scaffold_marks.edges;
-  marks.region_to_patch = scaffold_marks.region_to_patch;
+  boundary.region_to_patch = scaffold_boundary.region_to_patch;
   std::vector<QuadLabel> labels;
-  for (QuadId q : scaffold_marks.quad_to_region.ids())
-    labels.push_back({sorted_verts(scaffold.quads[q.index()]), scaffold_marks.quad_to_region[q]});
-  restore_regions(state, std::move(labels), marks);
+  for (QuadId q : scaffold_boundary.quad_to_region.ids())
+    labels.push_back(
+        {sorted_verts(scaffold.quads[q.index()]), scaffold_boundary.quad_to_region[q]});
+  boundary.rebuild(state, scaffold_boundary.marked_edges(), std::move(labels));
 }
 
-class SelectivePadder {
+class SheetChooser {
  public:
-  SelectivePadder(const FitState& carved, const FitState& scaffold,
-                  const FeatureMarks& scaffold_marks, const FitTarget& target,
-                  const Context& context)
+  SheetChooser(const FitState& carved, const FitState& scaffold,
+               const BoundaryState& scaffold_boundary, const FitTarget& target,
+               const Context& context)
       : start_{carved, {}, {}}, target_(target), context_(context) {
-    transfer_features(scaffold, scaffold_marks, start_.state, start_.marks);
+    transfer_features(scaffold, scaffold_boundary, start_.state, start_.boundary);
   }
 
   SelectivePadding run() {
     find_groups();
     while (true) {
       SelectivePadding best = pad_with_layers();
-      if (wrap_needs(best)) return best;
+      if (serve_needs(best)) return best;
     }
   }
 
@@ -74,11 +74,11 @@ class SelectivePadder {
   /// Local sheets come last, for layers leave more room beside them than they beside layers. Groups
   /// that found no room for their layer get them too. False when needs remain in a group that was
   /// to get no layer: then it gets one after all.
-  bool wrap_needs(SelectivePadding& padding) {
+  bool serve_needs(SelectivePadding& padding) {
     IdVector<GroupId, char> is_chosen = is_local_;
     for (GroupId g : failed_) is_chosen[g] = 1;
-    const auto num_left = insert_local_sheets(
-        padding.state, padding.marks, {*target_.features, groups_, convex_share_}, is_chosen);
+    const auto num_left = pad_needs(padding.state, padding.boundary,
+                                    {*target_.features, groups_, convex_share_}, is_chosen);
     bool is_done = true;
     for (GroupId g : num_left.ids()) {
       if (num_left[g] == 0 || is_local_[g] == 0) continue;
@@ -98,7 +98,7 @@ class SelectivePadder {
     for (int restart = 0; restart < kMaxRestarts && num_futile < kMaxFutileRestarts; ++restart) {
       SelectivePadding attempt = start_;
       attempt.report.num_restarts = static_cast<std::size_t>(restart);
-      const std::vector<GroupId> failed = extrude_all(attempt, todo);
+      const std::vector<GroupId> failed = pad_groups(attempt, todo);
       for (GroupId g : failed) attempt.report.num_failed_quads += groups_.num_quads[g];
       attempt.report.num_sheets = todo.size() - failed.size();
       ++num_futile;
@@ -117,13 +117,10 @@ class SelectivePadder {
     convex_share_ = compute_convex_shares(target_.tree.surface(), *target_.features);
     if (start_.state.side == Side::Outside)
       for (double& share : convex_share_) share = 1 - share;
-    {
-      const MarkedGraph marked(start_.state, start_.marks);
-      groups_ = find_padding_groups(start_.state, start_.marks, marked, convex_share_);
-    }
+    groups_ = find_padding_groups(start_.state, start_.boundary, convex_share_);
     start_.report.num_groups = groups_.num_quads.size();
-    const auto num_local =
-        count_local_hexes(start_.state, start_.marks, {*target_.features, groups_, convex_share_});
+    const auto num_local = count_local_hexes(start_.state, start_.boundary,
+                                             {*target_.features, groups_, convex_share_});
     is_local_.assign(groups_.num_quads.size(), 0);
     for (GroupId g : groups_.num_needs.ids()) {
       if (groups_.num_needs[g] == 0) continue;
@@ -155,16 +152,16 @@ class SelectivePadder {
   }
 
   /// Returns the groups that got no sheet.
-  std::vector<GroupId> extrude_all(SelectivePadding& attempt, std::vector<GroupId> todo) const {
+  std::vector<GroupId> pad_groups(SelectivePadding& attempt, std::vector<GroupId> todo) const {
     std::vector<GroupId> failed;
     while (!todo.empty()) {
       context_.check_cancelled();
       const std::size_t num_old_verts = attempt.state.num_verts();
       const std::vector<GroupId> batch = take_batch(attempt, todo);
-      std::vector<GroupId> unfit = extrude(attempt, batch);
+      std::vector<GroupId> unfit = pad_batch(attempt, batch);
       if (!unfit.empty()) {
         relax(attempt.state, copies_near(attempt, unfit), kSweepsBeforeRetry);
-        unfit = extrude(attempt, unfit);
+        unfit = pad_batch(attempt, unfit);
       }
       failed.insert(failed.end(), unfit.begin(), unfit.end());
       relax(attempt.state, copies_from(attempt.state, num_old_verts), kSweepsAfterBatch);
@@ -173,13 +170,15 @@ class SelectivePadder {
   }
 
   /// Returns the groups of the batch whose sheets do not fit.
-  std::vector<GroupId> extrude(SelectivePadding& attempt, const std::vector<GroupId>& batch) const {
-    IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetChoice::kNone);
+  std::vector<GroupId> pad_batch(SelectivePadding& attempt,
+                                 const std::vector<GroupId>& batch) const {
+    IdVector<GroupId, int> group_to_sheet(groups_.num_quads.size(), SheetSets::kNone);
     for (std::size_t i = 0; i < batch.size(); ++i) group_to_sheet[batch[i]] = static_cast<int>(i);
-    SheetChoice choice;
-    choice.num_sheets = batch.size();
-    for (GroupId g : groups_.region_to_group) choice.region_to_sheet.push_back(group_to_sheet[g]);
-    const auto is_done = extrude_regions(attempt.state, attempt.marks, *target_.features, choice);
+    SheetSets sets;
+    sets.num_sheets = batch.size();
+    for (RegionId r : attempt.boundary.quad_to_region)
+      sets.quad_to_sheet.push_back(group_to_sheet[groups_.region_to_group[r]]);
+    const auto is_done = pad(attempt.state, attempt.boundary, *target_.features, sets).is_done;
     std::vector<GroupId> unfit;
     for (std::size_t i = 0; i < batch.size(); ++i)
       if (!is_done[i]) unfit.push_back(batch[i]);
@@ -191,8 +190,8 @@ class SelectivePadder {
   std::vector<GroupId> take_batch(const SelectivePadding& attempt,
                                   std::vector<GroupId>& todo) const {
     IdVector<GroupId, std::vector<VertId>> verts(groups_.num_quads.size());
-    for (QuadId q : attempt.marks.quad_to_region.ids()) {
-      auto& list = verts[groups_.region_to_group[attempt.marks.quad_to_region[q]]];
+    for (QuadId q : attempt.boundary.quad_to_region.ids()) {
+      auto& list = verts[groups_.region_to_group[attempt.boundary.quad_to_region[q]]];
       const auto& quad = attempt.state.quads[q.index()];
       list.insert(list.end(), quad.begin(), quad.end());
     }
@@ -224,8 +223,8 @@ class SelectivePadder {
     IdVector<GroupId, char> is_asked(groups_.num_quads.size(), 0);
     for (GroupId g : groups) is_asked[g] = 1;
     std::vector<char> is_near(state.num_verts(), 0);
-    for (QuadId q : attempt.marks.quad_to_region.ids())
-      if (is_asked[groups_.region_to_group[attempt.marks.quad_to_region[q]]])
+    for (QuadId q : attempt.boundary.quad_to_region.ids())
+      if (is_asked[groups_.region_to_group[attempt.boundary.quad_to_region[q]]])
         for (VertId v : state.quads[q.index()]) is_near[v.index()] = 1;
     grow_vert_set(state, is_near, kRingsBeforeRetry);
     const std::vector<char> is_copy = copies_from(state, 0);
@@ -254,10 +253,10 @@ class SelectivePadder {
 
 }  // namespace
 
-SelectivePadding pad_selectively(const FitState& carved, const FitState& scaffold,
-                                 const FeatureMarks& scaffold_marks, const FitTarget& target,
-                                 const Context& context) {
-  return SelectivePadder(carved, scaffold, scaffold_marks, target, context).run();
+SelectivePadding choose_sheets(const FitState& carved, const FitState& scaffold,
+                               const BoundaryState& scaffold_boundary, const FitTarget& target,
+                               const Context& context) {
+  return SheetChooser(carved, scaffold, scaffold_boundary, target, context).run();
 }
 
 }  // namespace hexwright::fitting

@@ -1,15 +1,15 @@
 // Selective padding: valid, consistently marked, and cheaper than a layer everywhere.
-#include "fit/sheets/selective_padding.h"
+#include "fit/sheets/choose.h"
 
 #include "hexwright/fit/fit.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
 #include "fit/curves/curve_convexity.h"
-#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/failed.h"
+#include "fit/sheets/groups.h"
+#include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
-#include "fit/sheets/padding_groups.h"
-#include "fit/sheets/pillow_failed.h"
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
@@ -23,10 +23,10 @@ double min_jacobian(const HexMesh& mesh) {
   return *std::min_element(quality.begin(), quality.end());
 }
 
-std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+std::string problem_of(const FitState& state, const BoundaryState& boundary) {
   if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
   if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = find_problem(state, marks);
+  const auto problem = boundary.find_problem(state);
   return problem ? problem->message : "";
 }
 
@@ -44,7 +44,7 @@ struct Scaffold {
     attached = attach_features(padded, tree, features, {});
   }
   SelectivePadding pad() const {
-    return pad_selectively(carved, padded, attached.marks, {tree, &features}, {});
+    return choose_sheets(carved, padded, attached.boundary, {tree, &features}, {});
   }
   TriMesh surface;
   SurfaceTree tree;
@@ -53,8 +53,8 @@ struct Scaffold {
   /// Hexes of the alternative: the layer everywhere, and pillows under squeezed regions.
   std::size_t num_hexes_everywhere() const {
     FitState state = padded;
-    FeatureMarks marks = attached.marks;
-    pillow_squeezed_quads(state, marks, {});
+    BoundaryState boundary = attached.boundary;
+    pad_squeezed_quads(state, boundary, {});
     return state.mesh.num_hexes();
   }
   AttachedFeatures attached;
@@ -73,7 +73,7 @@ TEST(SelectivePadding, AddsNothingToABoxInLineWithItsGrid) {
   test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
   const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_EQ(result.report.num_groups, 6u);
   EXPECT_EQ(result.report.num_needed, 0u);
   EXPECT_EQ(result.state.mesh.num_hexes(), 216u);
@@ -83,14 +83,14 @@ class SelectivePaddingTurned : public ::testing::TestWithParam<double> {};
 
 TEST_P(SelectivePaddingTurned, IsValidAndSmaller) {
   const Scaffold s(turned_cube(GetParam()), test::box_hex_mesh(16, 16, 16));
-  ASSERT_EQ(problem_of(s.padded, s.attached.marks), "");
+  ASSERT_EQ(problem_of(s.padded, s.attached.boundary), "");
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_LE(result.report.num_sheets, result.report.num_needed);
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
   // The curves keep their length in edges or gain some; corners stay corners.
-  EXPECT_GE(result.marks.edges.size(), s.attached.marks.edges.size());
+  EXPECT_GE(result.boundary.marked_edges().size(), s.attached.boundary.marked_edges().size());
   std::size_t corners = 0;
   for (VertKind kind : result.state.kind) corners += kind == VertKind::Corner ? 1 : 0;
   EXPECT_EQ(corners, 8u);
@@ -109,7 +109,7 @@ TEST(SelectivePadding, UnitesRegionsAcrossConcaveCurves) {
   });
   const Scaffold s(surface, test::box_hex_mesh(16, 16, 16));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_LT(result.report.num_groups, 8u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
 }
@@ -134,7 +134,7 @@ TEST(SelectivePadding, ServesTheOutsideToo) {
 TEST(SelectivePadding, HandlesTheLoopsOfACylinder) {
   const Scaffold s(test::cylinder_surface(8, 5.3, 3.1, 12.2, 64), test::box_hex_mesh(16, 16, 16));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_GT(result.report.num_sheets, 0u);
   EXPECT_LT(result.state.mesh.num_hexes(), s.num_hexes_everywhere());
 }
@@ -145,17 +145,17 @@ TEST(PillowFailed, KeepsPillowsOnlyWhenTheyMend) {
   options.low = 2;  // every vertex of a curve has failed, and none is ever mended
   options.worthwhile = 0.99;
   FitState state = s.padded;
-  FeatureMarks marks = s.attached.marks;
+  BoundaryState boundary = s.attached.boundary;
   const HexMesh before = state.mesh;
   const FitTarget target{s.tree, &s.features};
-  EXPECT_EQ(pillow_failed_quads(state, marks, target, options, {}).num_pillows, 0u);
+  EXPECT_EQ(pad_failed_quads(state, boundary, target, options, {}).num_sheets, 0u);
   EXPECT_EQ(state.mesh.hexes, before.hexes);
   EXPECT_EQ(state.mesh.positions, before.positions);
   options.worthwhile = 100;  // whatever is left
-  const PillowReport report = pillow_failed_quads(state, marks, target, options, {});
-  EXPECT_GT(report.num_pillows, 0u);
+  const SqueezedReport report = pad_failed_quads(state, boundary, target, options, {});
+  EXPECT_GT(report.num_sheets, 0u);
   EXPECT_EQ(state.mesh.num_hexes(), before.num_hexes() + report.num_hexes);
-  EXPECT_EQ(problem_of(state, marks), "");
+  EXPECT_EQ(problem_of(state, boundary), "");
 }
 
 TEST(PillowFailed, DoesNothingWhereNothingFailed) {
@@ -164,8 +164,8 @@ TEST(PillowFailed, DoesNothingWhereNothingFailed) {
   options.low = -1;
   options.stuck = 1e9;
   FitState state = s.padded;
-  FeatureMarks marks = s.attached.marks;
-  pillow_failed_quads(state, marks, {s.tree, &s.features}, options, {});
+  BoundaryState boundary = s.attached.boundary;
+  pad_failed_quads(state, boundary, {s.tree, &s.features}, options, {});
   EXPECT_EQ(state.mesh.hexes, s.padded.mesh.hexes);
   EXPECT_EQ(state.mesh.positions, s.padded.mesh.positions);
 }
@@ -178,7 +178,7 @@ TEST(SelectivePadding, WrapsTheFewStepsOfALargeRegion) {
   });
   const Scaffold s(slab, test::box_hex_mesh(34, 20, 9));
   const SelectivePadding result = s.pad();
-  EXPECT_EQ(problem_of(result.state, result.marks), "");
+  EXPECT_EQ(problem_of(result.state, result.boundary), "");
   EXPECT_EQ(result.report.num_needed, 1u);
   EXPECT_EQ(result.report.num_sheets, 0u);  // of layers
   const std::size_t num_wrapped = result.state.mesh.num_hexes() - s.carved.mesh.num_hexes();
@@ -199,7 +199,7 @@ struct TwoFaces {
     test::transform(cube.positions, [](const Vec3& p) { return p * 6 + Vec3{1, 1, 1}; });
     const Scaffold s(cube, test::box_hex_mesh(8, 8, 8));
     state = s.carved;
-    marks = s.attached.marks;
+    boundary = s.attached.boundary;
     features = s.features;
     for (VertId v : state->kind.ids()) {
       if (!state->is_boundary(v)) continue;
@@ -208,50 +208,49 @@ struct TwoFaces {
       state->feature_point[v] = s.padded.feature_point[v];
       if (one_is_held && state->mesh.positions[v] == Vec3{7, 3, 3}) state->move[v] = MoveIn::Plane;
     }
-    choice.num_sheets = 2;
-    choice.region_to_sheet.assign(6, SheetChoice::kNone);
-    for (QuadId q : marks.quad_to_region.ids()) {
+    sets.num_sheets = 2;
+    sets.quad_to_sheet.assign(state->quads.size(), SheetSets::kNone);
+    for (QuadId q : boundary.quad_to_region.ids()) {
       Vec3 center;
       for (VertId v : state->quads[q.index()]) center += state->mesh.positions[v] * 0.25;
-      const RegionId region = marks.quad_to_region[q];
-      if (center.x == 1) choice.region_to_sheet[region] = 0;
-      if (center.x == 7) choice.region_to_sheet[region] = 1;
+      if (center.x == 1) sets.quad_to_sheet[q] = 0;
+      if (center.x == 7) sets.quad_to_sheet[q] = 1;
     }
   }
-  std::vector<char> extrude() { return extrude_regions(*state, marks, features, choice); }
+  std::vector<char> insert() { return pad(*state, boundary, features, sets).is_done; }
   std::optional<FitState> state;
-  FeatureMarks marks;
+  BoundaryState boundary;
   FeatureGraph features;
-  SheetChoice choice;
+  SheetSets sets;
 };
 
-TEST(ExtrudeRegions, InsertsSheetsTogether) {
+TEST(PadQuads, InsertsSheetsTogether) {
   TwoFaces faces(false);
-  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 1}));
+  EXPECT_EQ(faces.insert(), (std::vector<char>{1, 1}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 72u);
-  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+  EXPECT_EQ(problem_of(*faces.state, faces.boundary), "");
 }
 
-TEST(ExtrudeRegions, LeavesOutTheSheetThatDoesNotFit) {
+TEST(PadQuads, LeavesOutTheSheetThatDoesNotFit) {
   TwoFaces faces(true), alone(true);
-  EXPECT_EQ(faces.extrude(), (std::vector<char>{1, 0}));
+  EXPECT_EQ(faces.insert(), (std::vector<char>{1, 0}));
   EXPECT_EQ(faces.state->mesh.num_hexes(), 216u + 36u);
-  EXPECT_EQ(problem_of(*faces.state, faces.marks), "");
+  EXPECT_EQ(problem_of(*faces.state, faces.boundary), "");
   // The other sheet is as if it had been alone.
-  for (int& sheet : alone.choice.region_to_sheet)
-    if (sheet == 1) sheet = SheetChoice::kNone;
-  alone.choice.num_sheets = 1;
-  EXPECT_EQ(alone.extrude(), std::vector<char>{1});
+  for (int& sheet : alone.sets.quad_to_sheet)
+    if (sheet == 1) sheet = SheetSets::kNone;
+  alone.sets.num_sheets = 1;
+  EXPECT_EQ(alone.insert(), std::vector<char>{1});
   EXPECT_EQ(alone.state->mesh.hexes, faces.state->mesh.hexes);
   EXPECT_EQ(alone.state->mesh.positions, faces.state->mesh.positions);
 }
 
-TEST(ExtrudeRegions, ChangesNothingWhenNoSheetFits) {
+TEST(PadQuads, ChangesNothingWhenNoSheetFits) {
   TwoFaces faces(true);
-  for (int& sheet : faces.choice.region_to_sheet) sheet = sheet == 1 ? 0 : SheetChoice::kNone;
-  faces.choice.num_sheets = 1;
+  for (int& sheet : faces.sets.quad_to_sheet) sheet = sheet == 1 ? 0 : SheetSets::kNone;
+  faces.sets.num_sheets = 1;
   const HexMesh before = faces.state->mesh;
-  EXPECT_EQ(faces.extrude(), std::vector<char>{0});
+  EXPECT_EQ(faces.insert(), std::vector<char>{0});
   EXPECT_EQ(faces.state->mesh.hexes, before.hexes);
   EXPECT_EQ(faces.state->mesh.positions, before.positions);
 }

@@ -1,7 +1,7 @@
 // Which regions of the boundary get a padding sheet, and which together.
 #pragma once
 
-#include "fit/sheets/feature_layers.h"
+#include "fit/curves/boundary_state.h"
 
 namespace hexwright::fitting {
 
@@ -25,14 +25,12 @@ struct PaddingNeed {
 /// Regions are united across curves that are convex over less than 90% of their length, and where
 /// three or more groups meet in a way that a sheet's rim cannot follow.
 /// `convex_share`: per curve, seen from outside the mesh.
-PaddingGroups find_padding_groups(const FitState& state, const FeatureMarks& marks,
-                                  const MarkedGraph& marked,
+PaddingGroups find_padding_groups(const FitState& state, const BoundaryState& boundary,
                                   const IdVector<CurveId, double>& convex_share);
 
 /// The needs of groups once found, in a mesh that may have changed since; ascending by group. The
 /// same place may be named twice.
-std::vector<PaddingNeed> find_padding_needs(const FitState& state, const FeatureMarks& marks,
-                                            const MarkedGraph& marked,
+std::vector<PaddingNeed> find_padding_needs(const FitState& state, const BoundaryState& boundary,
                                             const IdVector<CurveId, double>& convex_share,
                                             const PaddingGroups& groups);
 

@@ -1,10 +1,8 @@
 // A pattern search per vertex: relaxing a staircase does not care whether its vertices stay
 // visible, and at saddles a small step decides.
-#include "fit/sheets/make_visible.h"
+#include "fit/sheets/visible.h"
 
 #include <algorithm>
-
-#include "fit/carve/visible_normal.h"
 
 namespace hexwright::fitting {
 
@@ -16,49 +14,53 @@ constexpr double kFirstStep = 0.4;       // of the vertex's size
 constexpr int kHalvings = 4;             // of the step
 constexpr double kLeastJacobian = 0.02;  // scaled, of hexes around, where they were no worse
 
+struct SheetCorner {
+  std::size_t quad, k;
+};
+
+/// Per sheet vertex: its place in the sheet's quads, in their order.
+std::vector<std::vector<SheetCorner>> collect_corners(const Sheet& sheet) {
+  std::vector<std::vector<SheetCorner>> corners(sheet.verts.size());
+  for (std::size_t q = 0; q < sheet.quads.size(); ++q)
+    for (std::size_t k = 0; k < 4; ++k)
+      corners[sheet.index_of(sheet.quads[q][k])].push_back({q, k});
+  return corners;
+}
+
+Vec3 corner_normal(const HexMesh& mesh, const Sheet& sheet, const SheetCorner& corner) {
+  const auto& quad = sheet.quads[corner.quad];
+  const Vec3& o = mesh.positions[quad[corner.k]];
+  const Vec3 a = mesh.positions[quad[(corner.k + 1) % 4]] - o;
+  const Vec3 b = mesh.positions[quad[(corner.k + 3) % 4]] - o;
+  return normalized(cross(a, b));
+}
+
 class VisibleMover {
  public:
-  VisibleMover(FitState& state, const Sheet& sheet) : state_(state), sheet_(sheet) {
-    corners_.resize(sheet.verts.size());
-    for (std::size_t q = 0; q < sheet.quads.size(); ++q)
-      for (std::size_t k = 0; k < 4; ++k) corners_[index_of(sheet.quads[q][k])].push_back({q, k});
-  }
+  VisibleMover(FitState& state, const Sheet& sheet)
+      : state_(state), sheet_(sheet), corners_(collect_corners(sheet)) {}
 
   void run(std::span<const VertId> verts, double least_cosine) {
     for (VertId v : verts) {
-      const std::size_t i = index_of(v);
+      const std::size_t i = sheet_.index_of(v);
       if (state_.move[v] == MoveIn::Space && cosine(i) < least_cosine) improve(i);
     }
   }
 
  private:
-  struct Corner {
-    std::size_t quad, k;
-  };
-
-  std::size_t index_of(VertId v) const {
-    return static_cast<std::size_t>(std::lower_bound(sheet_.verts.begin(), sheet_.verts.end(), v) -
-                                    sheet_.verts.begin());
-  }
-
   double cosine(std::size_t i) {
     normals_.clear();
-    const Vec3& o = state_.mesh.positions[sheet_.verts[i]];
-    for (const Corner& corner : corners_[i]) {
-      const auto& quad = sheet_.quads[corner.quad];
-      const Vec3 a = state_.mesh.positions[quad[(corner.k + 1) % 4]] - o;
-      const Vec3 b = state_.mesh.positions[quad[(corner.k + 3) % 4]] - o;
-      normals_.push_back(normalized(cross(a, b)));
-    }
+    for (const SheetCorner& corner : corners_[i])
+      normals_.push_back(corner_normal(state_.mesh, sheet_, corner));
     return find_visible_direction(normals_, kEnough).cosine;
   }
 
   /// The sheet's vertices in the faces at vertex i, and how well they are seen.
   std::vector<std::pair<std::size_t, double>> measure_neighbors(std::size_t i) {
     std::vector<std::pair<std::size_t, double>> result;
-    for (const Corner& corner : corners_[i])
+    for (const SheetCorner& corner : corners_[i])
       for (std::size_t step : {1, 3}) {
-        const std::size_t j = index_of(sheet_.quads[corner.quad][(corner.k + step) % 4]);
+        const std::size_t j = sheet_.index_of(sheet_.quads[corner.quad][(corner.k + step) % 4]);
         const auto is_same = [&](const auto& known) { return known.first == j; };
         if (std::none_of(result.begin(), result.end(), is_same)) result.push_back({j, cosine(j)});
       }
@@ -104,11 +106,22 @@ class VisibleMover {
 
   FitState& state_;
   const Sheet& sheet_;
-  std::vector<std::vector<Corner>> corners_;  // per sheet vertex: its place in the sheet's faces
+  std::vector<std::vector<SheetCorner>> corners_;
   std::vector<Vec3> normals_;
 };
 
 }  // namespace
+
+std::vector<VisibleDirection> find_visible_directions(const HexMesh& mesh, const Sheet& sheet) {
+  std::vector<VisibleDirection> directions;
+  std::vector<Vec3> normals;
+  for (const auto& corners : collect_corners(sheet)) {
+    normals.clear();
+    for (const SheetCorner& corner : corners) normals.push_back(corner_normal(mesh, sheet, corner));
+    directions.push_back(find_visible_direction(normals));
+  }
+  return directions;
+}
 
 void make_visible(FitState& state, const Sheet& sheet, std::span<const VertId> verts,
                   double least_cosine) {

@@ -1,5 +1,5 @@
 // Most squeezed quads are flat enough after the fit; hexes are spent only on the others.
-#include "fit/sheets/pillow_failed.h"
+#include "fit/sheets/failed.h"
 
 #include <algorithm>
 
@@ -41,18 +41,18 @@ void run_locally(FitState& state, const std::vector<char>& region, const FitTarg
 
 }  // namespace
 
-PillowReport pillow_failed_quads(FitState& state, FeatureMarks& marks, const FitTarget& target,
-                                 const FailedOptions& options, const Context& context) {
+SqueezedReport pad_failed_quads(FitState& state, BoundaryState& boundary, const FitTarget& target,
+                                const FailedOptions& options, const Context& context) {
   update_targets(state, target, 0);
-  PillowOptions pillow;
-  pillow.whole_regions = false;
-  pillow.is_wanted = find_failed(state, options);
-  const std::size_t num_failed = count(pillow.is_wanted);
+  SqueezedOptions squeezed;
+  squeezed.whole_regions = false;
+  squeezed.is_wanted = find_failed(state, options);
+  const std::size_t num_failed = count(squeezed.is_wanted);
   if (num_failed == 0) return {};
   FitState tried = state;
-  FeatureMarks tried_marks = marks;
-  const PillowReport report = pillow_squeezed_quads(tried, tried_marks, pillow);
-  if (report.num_pillows == 0) return report;
+  BoundaryState tried_boundary = boundary;
+  const SqueezedReport report = pad_squeezed_quads(tried, tried_boundary, squeezed);
+  if (report.num_sheets == 0) return report;
   std::vector<char> region(tried.num_verts(), 0);
   for (std::size_t v = state.num_verts(); v < region.size(); ++v) region[v] = 1;
   grow_vert_set(tried, region, options.rings);
@@ -64,7 +64,7 @@ PillowReport pillow_failed_quads(FitState& state, FeatureMarks& marks, const Fit
   const auto most = options.worthwhile * static_cast<double>(num_failed);
   if (static_cast<double>(count(find_failed(tried, options))) > most) return {};
   state = std::move(tried);
-  marks = std::move(tried_marks);
+  boundary = std::move(tried_boundary);
   return report;
 }
 

@@ -4,7 +4,7 @@
 
 #include "hexwright/base/context.h"
 
-#include "fit/sheets/feature_layers.h"
+#include "fit/curves/boundary_state.h"
 
 namespace hexwright::fitting {
 
@@ -21,7 +21,7 @@ struct SelectivePaddingReport {
 
 struct SelectivePadding {
   FitState state;
-  FeatureMarks marks;
+  BoundaryState boundary;
   SelectivePaddingReport report;
 };
 
@@ -29,8 +29,8 @@ struct SelectivePadding {
 /// its boundary has the vertex ids of the carved mesh's. Curves, kinds and regions are taken over
 /// from it, everything else is discarded. Every group that needs a sheet gets one where a valid one
 /// exists; the smallest first.
-SelectivePadding pad_selectively(const FitState& carved, const FitState& scaffold,
-                                 const FeatureMarks& scaffold_marks, const FitTarget& target,
-                                 const Context& context);
+SelectivePadding choose_sheets(const FitState& carved, const FitState& scaffold,
+                               const BoundaryState& scaffold_boundary, const FitTarget& target,
+                               const Context& context);
 
 }  // namespace hexwright::fitting

@@ -1,13 +1,13 @@
 // A smooth edge with one hex around it, in a region that is otherwise in line with the grid, is
-// mended by pillowing that hex: the sheet covers the boundary quads of the group and the inner
-// faces. Of a wrapped row of hexes that takes about four new hexes each, of a layer one per quad.
-#include "fit/sheets/local_sheets.h"
+// mended by a sheet around that hex: the sheet covers the boundary quads of the group and the inner
+// faces. Around a row of hexes that takes about four new hexes each, of a layer one per quad.
+#include "fit/sheets/pad_needs.h"
 
 #include <algorithm>
 #include <set>
 #include <tuple>
 
-#include "fit/sheets/extrude_regions.h"
+#include "fit/sheets/pad.h"
 
 namespace hexwright::fitting {
 
@@ -28,21 +28,20 @@ void for_each_hex_in_need(const FitState& state, VertId a, VertId b, Visit&& vis
 /// What the rounds of insertion have learned; vertex ids survive them.
 struct Experience {
   std::vector<char> takes_all;  ///< vertices at which a set takes in every hex once it has one
-  std::set<std::tuple<GroupId, VertId, VertId>> wrapped;  ///< needs that got a sheet already
+  std::set<std::tuple<GroupId, VertId, VertId>> served;  ///< needs that got a sheet already
 };
 
 /// The sets of hexes that one mesh calls for.
 class SetMaker {
  public:
-  SetMaker(const FitState& state, const FeatureMarks& marks, const LocalSheetInput& input,
+  SetMaker(const FitState& state, const BoundaryState& boundary, const PaddingInput& input,
            const Experience& experience)
       : state_(state),
-        marks_(marks),
-        marked_(state, marks),
+        boundary_(boundary),
         groups_(input.groups),
         experience_(experience),
-        needs_(find_padding_needs(state, marks, marked_, input.convex_share, input.groups)) {
-    for (QuadId q : marks.quad_to_region.ids())
+        needs_(find_padding_needs(state, boundary, input.convex_share, input.groups)) {
+    for (QuadId q : boundary.quad_to_region.ids())
       hex_quads_.push_back({state.quad_face[q.index()].hex, q});
     std::sort(hex_quads_.begin(), hex_quads_.end());
     collected_by_.assign(state.mesh.num_hexes(), GroupId{});
@@ -52,10 +51,10 @@ class SetMaker {
   const std::vector<PaddingNeed>& needs() const { return needs_; }
 
   /// Per need: the sheet around its hexes, or none.
-  std::vector<int> served_by(const WrapChoice& choice) const {
+  std::vector<int> served_by(const SheetSets& choice) const {
     std::vector<int> sheets;
     for (const PaddingNeed& need : needs_) {
-      int sheet = SheetChoice::kNone;
+      int sheet = SheetSets::kNone;
       for_each_hex_in_need(state_, need.a, need.b,
                            [&](HexId h) { sheet = std::max(sheet, choice.hex_to_sheet[h]); });
       sheets.push_back(sheet);
@@ -76,10 +75,10 @@ class SetMaker {
 
   /// Sets of the groups chosen that share no vertex. Of sets that touch those of the first group
   /// stay, the others are left for another time.
-  WrapChoice choose(const IdVector<GroupId, char>& is_chosen) {
-    WrapChoice choice;
-    choice.hex_to_sheet.assign(state_.mesh.num_hexes(), SheetChoice::kNone);
-    choice.quad_to_sheet.assign(state_.quads.size(), SheetChoice::kNone);
+  SheetSets choose(const IdVector<GroupId, char>& is_chosen) {
+    SheetSets choice;
+    choice.hex_to_sheet.assign(state_.mesh.num_hexes(), SheetSets::kNone);
+    choice.quad_to_sheet.assign(state_.quads.size(), SheetSets::kNone);
     std::vector<char> is_used(state_.num_verts(), 0);
     for (std::size_t i = 0; i < needs_.size(); ++i) {
       const GroupId g = needs_[i].group;
@@ -95,10 +94,10 @@ class SetMaker {
   void for_each_quad(HexId h, GroupId g, Visit&& visit) const {
     auto it = std::lower_bound(hex_quads_.begin(), hex_quads_.end(), std::pair(h, QuadId(0)));
     for (; it != hex_quads_.end() && it->first == h; ++it)
-      if (groups_.region_to_group[marks_.quad_to_region[it->second]] == g) visit(it->second);
+      if (groups_.region_to_group[boundary_.quad_to_region[it->second]] == g) visit(it->second);
   }
 
-  /// The hexes in need of a group, and those that have to be wrapped with them, ascending.
+  /// The hexes in need of a group, and those that have to go with them, ascending.
   std::vector<HexId> collect(GroupId g) {
     std::vector<HexId> hexes;
     const auto take = [&](HexId h) {
@@ -112,7 +111,7 @@ class SetMaker {
     const auto [first, last] =
         std::equal_range(needs_.begin(), needs_.end(), PaddingNeed{g, {}, {}}, by_group);
     for (auto need = first; need != last; ++need)
-      if (experience_.wrapped.count({g, need->a, need->b}) == 0)
+      if (experience_.served.count({g, need->a, need->b}) == 0)
         for_each_hex_in_need(state_, need->a, need->b, take);
     for (std::size_t i = 0; i < hexes.size(); ++i) {  // grows
       const auto hex = state_.mesh.hexes[hexes[i]];
@@ -127,20 +126,20 @@ class SetMaker {
   }
 
   /// Three hexes around a smooth edge would be four or five flat ones after one or two of them
-  /// were wrapped without the others, and two after all are.
+  /// got a sheet without the others, and two after all are.
   template <class Take>
   void take_around_concave_edge(VertId a, VertId b, Take&& take) const {
     constexpr std::size_t kConcave = 3;
     if (!state_.is_boundary(a) || !state_.is_boundary(b)) return;
-    const BoundaryEdgeId e = marked_.graph.find_edge(a, b);
-    if (!e.is_valid() || marked_.is_marked(e)) return;
+    const BoundaryEdgeId e = boundary_.graph.find_edge(a, b);
+    if (!e.is_valid() || boundary_.is_marked(e)) return;
     std::size_t count = 0;
     for_each_hex_in_need(state_, a, b, [&](HexId) { ++count; });
     if (count >= kConcave) for_each_hex_in_need(state_, a, b, take);
   }
 
   /// The collected hexes that are connected with the seed by vertices; they stop being collected.
-  void add_component(GroupId g, HexId seed, std::vector<char>& is_used, WrapChoice& choice) {
+  void add_component(GroupId g, HexId seed, std::vector<char>& is_used, SheetSets& choice) {
     std::vector<HexId> hexes{seed};
     collected_by_[seed] = {};
     bool is_free = true;
@@ -163,8 +162,7 @@ class SetMaker {
   }
 
   const FitState& state_;
-  const FeatureMarks& marks_;
-  const MarkedGraph marked_;
+  const BoundaryState& boundary_;
   const PaddingGroups& groups_;
   const Experience& experience_;
   const std::vector<PaddingNeed> needs_;
@@ -182,10 +180,10 @@ IdVector<GroupId, int> count_needs(const std::vector<PaddingNeed>& needs,
 }  // namespace
 
 IdVector<GroupId, std::optional<std::size_t>> count_local_hexes(const FitState& state,
-                                                                const FeatureMarks& marks,
-                                                                const LocalSheetInput& input) {
+                                                                const BoundaryState& boundary,
+                                                                const PaddingInput& input) {
   const Experience none{std::vector<char>(state.num_verts(), 0), {}};
-  SetMaker sets(state, marks, input, none);
+  SetMaker sets(state, boundary, input, none);
   IdVector<GroupId, std::optional<std::size_t>> count(input.groups.num_quads.size(), 0);
   for (GroupId g : count.ids())
     if (input.groups.num_needs[g] > 0) count[g] = sets.count_faces(g);
@@ -194,27 +192,27 @@ IdVector<GroupId, std::optional<std::size_t>> count_local_hexes(const FitState& 
   return count;
 }
 
-IdVector<GroupId, int> insert_local_sheets(FitState& state, FeatureMarks& marks,
-                                           const LocalSheetInput& input,
-                                           const IdVector<GroupId, char>& is_chosen) {
+IdVector<GroupId, int> pad_needs(FitState& state, BoundaryState& boundary,
+                                 const PaddingInput& input,
+                                 const IdVector<GroupId, char>& is_chosen) {
   bool is_progress = std::find(is_chosen.begin(), is_chosen.end(), 1) != is_chosen.end();
   if (!is_progress) return IdVector<GroupId, int>(is_chosen.size(), 0);
   Experience experience;
   for (int round = 0;; ++round) {
     experience.takes_all.resize(state.num_verts(), 0);
-    SetMaker sets(state, marks, input, experience);
+    SetMaker sets(state, boundary, input, experience);
     auto num_left = count_needs(sets.needs(), is_chosen);
     const bool is_done =
         std::all_of(num_left.begin(), num_left.end(), [](int n) { return n == 0; });
     if (is_done || !is_progress || round == kMaxRounds) return num_left;
-    const WrapChoice choice = sets.choose(is_chosen);
+    const SheetSets choice = sets.choose(is_chosen);
     const auto served = sets.served_by(choice);
-    const WrapOutcome outcome = wrap_hexes(state, marks, input.features, choice);
+    const PadOutcome outcome = pad(state, boundary, input.features, choice);
     is_progress = false;
     for (std::size_t i = 0; i < served.size(); ++i) {
       if (served[i] < 0 || outcome.is_done[static_cast<std::size_t>(served[i])] == 0) continue;
       const PaddingNeed& need = sets.needs()[i];
-      is_progress |= experience.wrapped.insert({need.group, need.a, need.b}).second;
+      is_progress |= experience.served.insert({need.group, need.a, need.b}).second;
     }
     for (VertId v : outcome.blocked) {
       is_progress = is_progress || experience.takes_all[v.index()] == 0;

@@ -1,5 +1,5 @@
 // Sheet insertion with offsets that shrink where a hex would be inverted.
-#include "fit/sheets/insert_sheet.h"
+#include "fit/sheets/insert.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,33 +9,28 @@
 namespace hexwright::fitting {
 namespace {
 
+constexpr double kDepth = 0.3;  // first offset, in shortest incident edges
 constexpr double kShrink = 0.6;
 constexpr int kMaxShrinks = 60;
+// Scaled. Far below what any pass works towards: what is left out by it is degenerate already.
+constexpr double kMinJacobian = 1e-7;
 
-class Insertion {
+class Inserter {
  public:
-  Insertion(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
-            std::span<const char> takes_copy)
-      : mesh_(mesh), vert_to_hex_(vert_to_hex), sheet_(sheet), takes_copy_(takes_copy) {}
+  Inserter(HexMesh& mesh, const VertToHex& vert_to_hex, const SheetPlan& plan)
+      : mesh_(mesh), vert_to_hex_(vert_to_hex), sheet_(plan.sheet), plan_(plan) {}
 
-  SheetInsertion run(double min_jacobian) {
+  Insertion run() {
     measure_offsets();
     split();
     place_all();
-    std::vector<VertId> stuck = shrink(min_jacobian);
+    std::vector<VertId> stuck = shrink();
     if (stuck.empty()) return {std::move(copies_), {}};
     undo();
     return {{}, std::move(stuck)};
   }
 
  private:
-  std::size_t index_of(VertId v) const {
-    const auto it = std::lower_bound(sheet_.verts.begin(), sheet_.verts.end(), v);
-    return it != sheet_.verts.end() && *it == v
-               ? static_cast<std::size_t>(it - sheet_.verts.begin())
-               : kNone;
-  }
-
   void measure_offsets() {
     for (VertId v : sheet_.verts) {
       double shortest = std::numeric_limits<double>::infinity();
@@ -44,7 +39,7 @@ class Insertion {
           const VertId w = mesh_.hexes[corner.hex][static_cast<std::size_t>(lv)];
           shortest = std::min(shortest, distance(mesh_.positions[w], mesh_.positions[v]));
         }
-      offsets_.push_back(sheet_.depth * shortest);
+      offsets_.push_back(kDepth * shortest);
     }
   }
 
@@ -57,7 +52,7 @@ class Insertion {
       const VertId v = sheet_.verts[i];
       copies_.push_back(mesh_.positions.push_back(mesh_.positions[v]));
       for (const HexCorner& corner : vert_to_hex_[v]) {
-        if (!takes_copy_.empty() && !takes_copy_[corner.hex.index()]) continue;
+        if (!plan_.takes_copy.empty() && plan_.takes_copy[corner.hex.index()] == 0) continue;
         mesh_.hexes[corner.hex][static_cast<std::size_t>(corner.lv)] = copies_[i];
         replaced_.push_back({corner, v});
         touched_[i].push_back(corner.hex);
@@ -67,7 +62,7 @@ class Insertion {
       const auto& quad = sheet_.quads[q];
       std::array<VertId, 8> hex;
       for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t i = index_of(quad[k]);
+        const std::size_t i = sheet_.index_of(quad[k]);
         hex[k] = copies_[i];
         hex[k + 4] = quad[k];
         touched_[i].push_back(HexId(mesh_.num_hexes()));
@@ -79,19 +74,17 @@ class Insertion {
 
   void place(std::size_t i) {
     mesh_.positions[copies_[i]] =
-        mesh_.positions[sheet_.verts[i]] - sheet_.directions[i] * offsets_[i];
+        mesh_.positions[sheet_.verts[i]] - plan_.directions[i] * offsets_[i];
   }
   void place_all() {
     for (std::size_t i = 0; i < copies_.size(); ++i) place(i);
   }
 
-  bool is_good(HexId h, double min_jacobian) const {
-    return scaled_jacobian(mesh_.corners(h)) > min_jacobian;
-  }
+  bool is_good(HexId h) const { return scaled_jacobian(mesh_.corners(h)) > kMinJacobian; }
 
   /// Shrinks the offsets around hexes that are not good. Returns the sheet's vertices at hexes that
   /// are not good in the end.
-  std::vector<VertId> shrink(double min_jacobian) {
+  std::vector<VertId> shrink() {
     std::vector<HexId> to_check;
     for (const auto& hexes : touched_) to_check.insert(to_check.end(), hexes.begin(), hexes.end());
     std::vector<std::size_t> shrinking;
@@ -100,7 +93,7 @@ class Insertion {
       to_check.erase(std::unique(to_check.begin(), to_check.end()), to_check.end());
       shrinking.clear();
       for (HexId h : to_check)
-        if (!is_good(h, min_jacobian))
+        if (!is_good(h))
           for (VertId v : mesh_.hexes[h])
             if (v.index() >= num_old_verts_) shrinking.push_back(v.index() - num_old_verts_);
       if (shrinking.empty()) break;
@@ -126,8 +119,6 @@ class Insertion {
     mesh_.positions.resize(num_old_verts_);
   }
 
-  static constexpr std::size_t kNone = ~std::size_t{0};
-
   struct Replaced {
     HexCorner corner;
     VertId old;
@@ -136,7 +127,7 @@ class Insertion {
   HexMesh& mesh_;
   const VertToHex& vert_to_hex_;
   const Sheet& sheet_;
-  std::span<const char> takes_copy_;
+  const SheetPlan& plan_;
   std::vector<double> offsets_;              // per sheet vertex
   std::vector<VertId> copies_;               // per sheet vertex
   std::vector<std::vector<HexId>> touched_;  // per sheet vertex: hexes that use its copy
@@ -146,17 +137,8 @@ class Insertion {
 
 }  // namespace
 
-std::vector<VertId> sheet_verts(const std::vector<std::array<VertId, 4>>& quads) {
-  std::vector<VertId> verts;
-  for (const auto& quad : quads) verts.insert(verts.end(), quad.begin(), quad.end());
-  std::sort(verts.begin(), verts.end());
-  verts.erase(std::unique(verts.begin(), verts.end()), verts.end());
-  return verts;
-}
-
-SheetInsertion insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const Sheet& sheet,
-                            std::span<const char> takes_copy, double min_jacobian) {
-  return Insertion(mesh, vert_to_hex, sheet, takes_copy).run(min_jacobian);
+Insertion insert_sheet(HexMesh& mesh, const VertToHex& vert_to_hex, const SheetPlan& plan) {
+  return Inserter(mesh, vert_to_hex, plan).run();
 }
 
 }  // namespace hexwright::fitting

@@ -1,5 +1,5 @@
 // Groups of regions by curve convexity and corner feasibility; needs by hexes around edges.
-#include "fit/sheets/padding_groups.h"
+#include "fit/sheets/groups.h"
 
 #include <algorithm>
 
@@ -15,31 +15,30 @@ constexpr double kConvexShare = 0.9;  // of a curve's length, from which sheets 
 
 class GroupFinder {
  public:
-  GroupFinder(const FitState& state, const FeatureMarks& marks, const MarkedGraph& marked,
+  GroupFinder(const FitState& state, const BoundaryState& boundary,
               const IdVector<CurveId, double>& convex_share)
       : state_(state),
-        marks_(marks),
-        marked_(marked),
+        boundary_(boundary),
         convex_share_(convex_share),
-        sets_(marks.region_to_patch.size()) {}
+        sets_(boundary.region_to_patch.size()) {}
 
   PaddingGroups run() {
     unite_across_curves();
     while (unite_where_infeasible()) continue;
     number_groups();
-    const auto needs = find_padding_needs(state_, marks_, marked_, convex_share_, groups_);
+    const auto needs = find_padding_needs(state_, boundary_, convex_share_, groups_);
     for (const PaddingNeed& need : needs) ++groups_.num_needs[need.group];
     return std::move(groups_);
   }
 
  private:
-  int root(QuadId q) { return sets_.find(marks_.quad_to_region[q].value()); }
+  int root(QuadId q) { return sets_.find(boundary_.quad_to_region[q].value()); }
 
   void unite_across_curves() {
-    for (BoundaryEdgeId e : marked_.edge_to_curve.ids()) {
-      const auto& edge = marked_.graph.edge(e);
-      if (!marked_.is_marked(e) || edge.num_quads != 2) continue;
-      if (convex_share_[marked_.edge_to_curve[e]] < kConvexShare)
+    for (BoundaryEdgeId e : boundary_.edge_to_curve.ids()) {
+      const auto& edge = boundary_.graph.edge(e);
+      if (!boundary_.is_marked(e) || edge.num_quads != 2) continue;
+      if (convex_share_[boundary_.edge_to_curve[e]] < kConvexShare)
         sets_.unite(root(edge.quads[0]), root(edge.quads[1]));
     }
   }
@@ -48,14 +47,14 @@ class GroupFinder {
   /// one marked edge leaves to the others' side, from a corner. One union per vertex and pass.
   bool unite_where_infeasible() {
     bool any = false;
-    for (VertId v : marked_.graph.verts()) {
+    for (VertId v : boundary_.graph.verts()) {
       std::vector<int> roots;
-      for (QuadId q : marked_.graph.quads(v)) roots.push_back(root(q));
+      for (QuadId q : boundary_.graph.quads(v)) roots.push_back(root(q));
       std::sort(roots.begin(), roots.end());
       roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
       if (roots.size() < 2) continue;
       for (int r : roots) {
-        const QuadFans fans = find_quad_fans(marked_, v, [&](QuadId q) { return root(q) == r; });
+        const QuadFans fans = find_quad_fans(boundary_, v, [&](QuadId q) { return root(q) == r; });
         const auto num_marked = fans.marked_outside.size();
         const bool is_feasible = fans.num_inside == 1 && fans.num_outside == 1 && num_marked <= 1 &&
                                  (num_marked == 0 || state_.kind[v] == VertKind::Corner);
@@ -69,7 +68,7 @@ class GroupFinder {
   }
 
   void number_groups() {
-    const auto numbers = number_sets(sets_, marks_.region_to_patch.size());
+    const auto numbers = number_sets(sets_, boundary_.region_to_patch.size());
     std::size_t count = 0;
     for (int n : numbers) {
       groups_.region_to_group.push_back(GroupId(n));
@@ -77,13 +76,12 @@ class GroupFinder {
     }
     groups_.num_quads.assign(count, 0);
     groups_.num_needs.assign(count, 0);
-    for (QuadId q : marks_.quad_to_region.ids())
-      ++groups_.num_quads[groups_.region_to_group[marks_.quad_to_region[q]]];
+    for (QuadId q : boundary_.quad_to_region.ids())
+      ++groups_.num_quads[groups_.region_to_group[boundary_.quad_to_region[q]]];
   }
 
   const FitState& state_;
-  const FeatureMarks& marks_;
-  const MarkedGraph& marked_;
+  const BoundaryState& boundary_;
   const IdVector<CurveId, double>& convex_share_;
   UnionFind sets_;
   PaddingGroups groups_;
@@ -91,13 +89,9 @@ class GroupFinder {
 
 class NeedFinder {
  public:
-  NeedFinder(const FitState& state, const FeatureMarks& marks, const MarkedGraph& marked,
+  NeedFinder(const FitState& state, const BoundaryState& boundary,
              const IdVector<CurveId, double>& convex_share, const PaddingGroups& groups)
-      : state_(state),
-        marks_(marks),
-        marked_(marked),
-        convex_share_(convex_share),
-        groups_(groups) {}
+      : state_(state), boundary_(boundary), convex_share_(convex_share), groups_(groups) {}
 
   std::vector<PaddingNeed> run() {
     find_edge_needs();
@@ -108,18 +102,18 @@ class NeedFinder {
   }
 
  private:
-  GroupId group(QuadId q) const { return groups_.region_to_group[marks_.quad_to_region[q]]; }
+  GroupId group(QuadId q) const { return groups_.region_to_group[boundary_.quad_to_region[q]]; }
 
   /// Hexes of the kept side around each boundary edge.
   IdVector<BoundaryEdgeId, int> count_hexes_around() const {
-    IdVector<BoundaryEdgeId, int> count(marked_.graph.num_edges(), 0);
+    IdVector<BoundaryEdgeId, int> count(boundary_.graph.num_edges(), 0);
     for (HexId h : state_.mesh.hexes.ids())
       for (const auto& le : kHexEdges) {
         const auto& hex = state_.mesh.hexes[h];
         const VertId a = hex[static_cast<std::size_t>(le[0])];
         const VertId b = hex[static_cast<std::size_t>(le[1])];
         if (!state_.is_boundary(a) || !state_.is_boundary(b)) continue;
-        const BoundaryEdgeId e = marked_.graph.find_edge(a, b);
+        const BoundaryEdgeId e = boundary_.graph.find_edge(a, b);
         if (e.is_valid()) ++count[e];
       }
     return count;
@@ -130,12 +124,12 @@ class NeedFinder {
   void find_edge_needs() {
     const auto num_hexes = count_hexes_around();
     for (BoundaryEdgeId e : num_hexes.ids()) {
-      const auto& edge = marked_.graph.edge(e);
+      const auto& edge = boundary_.graph.edge(e);
       if (edge.num_quads != 2) continue;
       const GroupId a = group(edge.quads[0]), b = group(edge.quads[1]);
-      if (!marked_.is_marked(e)) {
+      if (!boundary_.is_marked(e)) {
         if (num_hexes[e] == 1) needs_.push_back({a, edge.a, edge.b});
-      } else if (convex_share_[marked_.edge_to_curve[e]] < 0.5) {
+      } else if (convex_share_[boundary_.edge_to_curve[e]] < 0.5) {
         if (num_hexes[e] != 1) continue;
         needs_.push_back({a, edge.a, edge.b, true});
         if (b != a) needs_.push_back({b, edge.a, edge.b, true});
@@ -148,15 +142,15 @@ class NeedFinder {
 
   /// A quad squeezed at a curve vertex is mended by the sheet of the group across the curve.
   void find_squeeze_needs() {
-    for (QuadId q : marks_.quad_to_region.ids()) {
-      const auto& edges = marked_.graph.quad_edges(q);
+    for (QuadId q : boundary_.quad_to_region.ids()) {
+      const auto& edges = boundary_.graph.quad_edges(q);
       for (std::size_t k = 0; k < 4; ++k) {
         const BoundaryEdgeId e0 = edges[k], e1 = edges[(k + 3) % 4];
         if (state_.kind[state_.quads[q.index()][k]] != VertKind::Curve) continue;
-        if (!marked_.is_marked(e0) || !marked_.is_marked(e1)) continue;
+        if (!boundary_.is_marked(e0) || !boundary_.is_marked(e1)) continue;
         for (BoundaryEdgeId e : {e0, e1}) {
-          if (marked_.graph.edge(e).num_quads != 2) continue;
-          const GroupId other = group(marked_.graph.edge(e).other(q));
+          if (boundary_.graph.edge(e).num_quads != 2) continue;
+          const GroupId other = group(boundary_.graph.edge(e).other(q));
           if (other != group(q)) needs_.push_back({other, state_.quads[q.index()][k], {}});
         }
       }
@@ -164,8 +158,7 @@ class NeedFinder {
   }
 
   const FitState& state_;
-  const FeatureMarks& marks_;
-  const MarkedGraph& marked_;
+  const BoundaryState& boundary_;
   const IdVector<CurveId, double>& convex_share_;
   const PaddingGroups& groups_;
   std::vector<PaddingNeed> needs_;
@@ -173,17 +166,15 @@ class NeedFinder {
 
 }  // namespace
 
-PaddingGroups find_padding_groups(const FitState& state, const FeatureMarks& marks,
-                                  const MarkedGraph& marked,
+PaddingGroups find_padding_groups(const FitState& state, const BoundaryState& boundary,
                                   const IdVector<CurveId, double>& convex_share) {
-  return GroupFinder(state, marks, marked, convex_share).run();
+  return GroupFinder(state, boundary, convex_share).run();
 }
 
-std::vector<PaddingNeed> find_padding_needs(const FitState& state, const FeatureMarks& marks,
-                                            const MarkedGraph& marked,
+std::vector<PaddingNeed> find_padding_needs(const FitState& state, const BoundaryState& boundary,
                                             const IdVector<CurveId, double>& convex_share,
                                             const PaddingGroups& groups) {
-  return NeedFinder(state, marks, marked, convex_share, groups).run();
+  return NeedFinder(state, boundary, convex_share, groups).run();
 }
 
 }  // namespace hexwright::fitting

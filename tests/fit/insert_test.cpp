@@ -1,5 +1,5 @@
 // Sheets keep a mesh conforming and positive; the set check agrees with what a sheet needs.
-#include "fit/sheets/insert_sheet.h"
+#include "fit/sheets/insert.h"
 
 #include <random>
 
@@ -29,7 +29,7 @@ double min_jacobian(const HexMesh& mesh) {
 
 /// The sheet around a set; empty directions where a vertex fails the check.
 struct SetSheet {
-  Sheet sheet;
+  SheetPlan plan;
   bool is_good = true;
 };
 
@@ -42,15 +42,14 @@ SetSheet sheet_around(const HexMesh& mesh, const std::vector<char>& is_in, bool 
       const HexId other = neighbors.neighbor[h][std::size_t(lf)];
       const bool is_face =
           is_in[h.index()] && (other.is_valid() ? !is_in[other.index()] : with_boundary);
-      if (!is_face) continue;
-      result.sheet.quads.push_back(face_verts(mesh, {h, lf}));
-      result.sheet.behind.push_back(h);
+      if (is_face) result.plan.sheet.add_face(mesh, {h, lf});
     }
-  result.sheet.verts = sheet_verts(result.sheet.quads);
+  result.plan.sheet.collect_verts();
+  result.plan.takes_copy = is_in;
   SetCheck check(mesh, vert_to_hex, neighbors, with_boundary);
-  for (VertId v : result.sheet.verts) {
+  for (VertId v : result.plan.sheet.verts) {
     result.is_good &= check.check(v, is_in, 0.02) == SetFault::None;
-    result.sheet.directions.push_back(check.direction(v, is_in).direction);
+    result.plan.directions.push_back(check.direction(v, is_in).direction);
   }
   return result;
 }
@@ -61,8 +60,8 @@ TEST(InsertSheet, PadsABoxEverywhere) {
   const SetSheet s = sheet_around(mesh, all, true);
   ASSERT_TRUE(s.is_good);
   const auto boundary = compute_hex_neighbors(mesh).boundary.size();
-  const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6).copies;
-  EXPECT_EQ(copies.size(), s.sheet.verts.size());
+  const auto copies = insert_sheet(mesh, VertToHex(mesh), s.plan).copies;
+  EXPECT_EQ(copies.size(), s.plan.sheet.verts.size());
   EXPECT_EQ(mesh.num_hexes(), 27 + boundary);
   const HexNeighbors after = compute_hex_neighbors(mesh);
   EXPECT_TRUE(after.non_conforming.empty());
@@ -91,14 +90,14 @@ TEST(InsertSheet, KeepsRandomSetsValidOrLeavesTheMeshAlone) {
     const SetSheet s = sheet_around(mesh, is_in, false);
     if (!s.is_good) continue;
     const HexMesh before = mesh;
-    const auto copies = insert_sheet(mesh, VertToHex(mesh), s.sheet, is_in, 1e-6).copies;
+    const auto copies = insert_sheet(mesh, VertToHex(mesh), s.plan).copies;
     if (copies.empty()) {
       EXPECT_EQ(mesh.hexes, before.hexes);
       EXPECT_EQ(mesh.positions, before.positions);
       continue;
     }
     ++num_inserted;
-    EXPECT_EQ(mesh.num_hexes(), before.num_hexes() + s.sheet.quads.size());
+    EXPECT_EQ(mesh.num_hexes(), before.num_hexes() + s.plan.sheet.quads.size());
     EXPECT_TRUE(compute_hex_neighbors(mesh).non_conforming.empty());
     EXPECT_GT(min_jacobian(mesh), 0);
     ASSERT_EQ(mesh.region.size(), mesh.num_hexes());
@@ -111,11 +110,11 @@ TEST(InsertSheet, RefusesADirectionThatSeesNothing) {
   HexMesh mesh = test::box_hex_mesh(2, 2, 2);
   const std::vector<char> all(8, 1);
   SetSheet s = sheet_around(mesh, all, true);
-  for (Vec3& d : s.sheet.directions) d = -d;
+  for (Vec3& d : s.plan.directions) d = -d;
   const HexMesh before = mesh;
-  const SheetInsertion failed = insert_sheet(mesh, VertToHex(mesh), s.sheet, all, 1e-6);
+  const Insertion failed = insert_sheet(mesh, VertToHex(mesh), s.plan);
   EXPECT_TRUE(failed.copies.empty());
-  EXPECT_EQ(failed.stuck, s.sheet.verts);  // every hex of the box is turned inside out
+  EXPECT_EQ(failed.stuck, s.plan.sheet.verts);  // every hex of the box is turned inside out
   EXPECT_EQ(mesh.hexes, before.hexes);
   EXPECT_EQ(mesh.positions, before.positions);
 }
@@ -135,6 +134,37 @@ TEST(SetCheck, FindsContactsByEdgeAndByVertex) {
   EXPECT_EQ(verdict(std::vector<char>(8, 1)), SetFault::None);
   // Three hexes in a row around the centre: manifold, but two faces look at each other's backs.
   EXPECT_EQ(verdict({1, 1, 0, 1, 0, 0, 1, 0}), SetFault::NonManifold);
+}
+
+TEST(SetCheck, AgreesWithBruteForceOnAllOctants) {
+  const HexMesh mesh = test::box_hex_mesh(2, 2, 2);
+  const VertToHex vert_to_hex(mesh);
+  const HexNeighbors neighbors = compute_hex_neighbors(mesh);
+  SetCheck check(mesh, vert_to_hex, neighbors, true);
+  const VertId center(13);
+  for (unsigned octants = 0; octants < 256; ++octants) {
+    std::vector<char> set;
+    for (unsigned h = 0; h < 8; ++h) set.push_back((octants >> h & 1u) != 0 ? 1 : 0);
+    bool is_manifold = true;
+    for (char side : {0, 1}) {
+      std::vector<HexId> reached;
+      std::size_t total = 0;
+      for (HexId h : mesh.hexes.ids()) {
+        if (set[h.index()] != side) continue;
+        if (total++ == 0) reached.push_back(h);
+      }
+      for (std::size_t i = 0; i < reached.size(); ++i)
+        for (HexId other : neighbors.neighbor[reached[i]])
+          if (other.is_valid() && set[other.index()] == side &&
+              std::find(reached.begin(), reached.end(), other) == reached.end())
+            reached.push_back(other);
+      is_manifold &= reached.size() == total;
+    }
+    EXPECT_EQ(check.is_manifold(center, set), is_manifold) << octants;
+    if (!is_manifold) {
+      EXPECT_EQ(check.check(center, set, 0.1), SetFault::NonManifold) << octants;
+    }
+  }
 }
 
 TEST(VisibleDirection, IsTheBestOneOnRandomNormals) {

@@ -1,5 +1,5 @@
 // Sheets around single hexes and rows of them, in place of layers under whole groups.
-#include "fit/sheets/local_sheets.h"
+#include "fit/sheets/pad_needs.h"
 
 #include <random>
 
@@ -8,8 +8,8 @@
 #include "boundary_fixtures.h"
 #include "fit/carve/set_check.h"
 #include "fit/carve/visible_normal.h"
-#include "fit/sheets/extrude_regions.h"
-#include "fit/sheets/make_visible.h"
+#include "fit/sheets/pad.h"
+#include "fit/sheets/visible.h"
 
 namespace hexwright::fitting {
 namespace {
@@ -21,41 +21,42 @@ double min_jacobian(const HexMesh& mesh) {
   return *std::min_element(quality.begin(), quality.end());
 }
 
-std::string problem_of(const FitState& state, const FeatureMarks& marks) {
+std::string problem_of(const FitState& state, const BoundaryState& boundary) {
   if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
   if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = find_problem(state, marks);
+  const auto problem = boundary.find_problem(state);
   return problem ? problem->message : "";
 }
 
 /// A hex mesh whose whole boundary is one region without curves.
 struct Smooth {
   explicit Smooth(HexMesh mesh) : state(std::move(mesh)) {
-    marks.region_to_patch.push_back(PatchId{});
-    marks.quad_to_region.assign(state.quads.size(), RegionId(0));
+    boundary.region_to_patch.push_back(PatchId{});
+    boundary.rebuild(state, {}, {});
+    boundary.quad_to_region.assign(state.quads.size(), RegionId(0));
     groups.region_to_group.push_back(GroupId(0));
     groups.num_quads.push_back(state.quads.size());
     groups.num_needs.push_back(1);
   }
-  LocalSheetInput input() const { return {features, groups, convex_share}; }
+  PaddingInput input() const { return {features, groups, convex_share}; }
   std::vector<PaddingNeed> needs() const {
-    return find_padding_needs(state, marks, MarkedGraph(state, marks), convex_share, groups);
+    return find_padding_needs(state, boundary, convex_share, groups);
   }
   /// Wraps the hexes that satisfy a predicate of their centres, covering all their boundary quads.
-  WrapOutcome wrap(const std::function<bool(const Vec3&)>& is_in) {
-    WrapChoice choice;
+  PadOutcome wrap(const std::function<bool(const Vec3&)>& is_in) {
+    SheetSets choice;
     choice.num_sheets = 1;
     for (HexId h : state.mesh.hexes.ids()) {
       Vec3 center;
       for (const Vec3& p : state.mesh.corners(h)) center += p * 0.125;
-      choice.hex_to_sheet.push_back(is_in(center) ? 0 : SheetChoice::kNone);
+      choice.hex_to_sheet.push_back(is_in(center) ? 0 : SheetSets::kNone);
     }
     for (const HexFace& face : state.quad_face)
       choice.quad_to_sheet.push_back(choice.hex_to_sheet[face.hex]);
-    return wrap_hexes(state, marks, features, choice);
+    return pad(state, boundary, features, choice);
   }
   FitState state;
-  FeatureMarks marks;
+  BoundaryState boundary;
   FeatureGraph features;
   PaddingGroups groups;
   IdVector<CurveId, double> convex_share;
@@ -66,7 +67,7 @@ HexMesh terrace(int length, int width) {
   return test::voxels(length, [=](const Vec3& p) { return p.z < 2 || (p.z < 3 && p.x < width); });
 }
 
-TEST(WrapHexes, AddsOneHexPerFaceOfTheSet) {
+TEST(PadHexes, AddsOneHexPerFaceOfTheSet) {
   // Inside, at a face, at an edge, at a corner: what is covered and what is inside all count.
   for (const Vec3& corner : {Vec3{1, 1, 1}, Vec3{0, 1, 1}, Vec3{0, 0, 1}, Vec3{0, 0, 0}}) {
     Smooth s(test::box_hex_mesh(3, 3, 3));
@@ -78,11 +79,11 @@ TEST(WrapHexes, AddsOneHexPerFaceOfTheSet) {
     EXPECT_TRUE(outcome.blocked.empty());
     EXPECT_EQ(s.state.mesh.num_hexes(), 27u + 6u);
     EXPECT_EQ(s.state.quads.size(), 54u);  // no rim: everything of the set is covered
-    EXPECT_EQ(problem_of(s.state, s.marks), "");
+    EXPECT_EQ(problem_of(s.state, s.boundary), "");
   }
 }
 
-TEST(WrapHexes, RefusesASetThatTouchesItselfAtAnEdge) {
+TEST(PadHexes, RefusesASetThatTouchesItselfAtAnEdge) {
   Smooth s(test::box_hex_mesh(4, 4, 4));
   const HexMesh before = s.state.mesh;
   const auto outcome = s.wrap([](const Vec3& p) {
@@ -95,7 +96,7 @@ TEST(WrapHexes, RefusesASetThatTouchesItselfAtAnEdge) {
   EXPECT_EQ(s.state.mesh.positions, before.positions);
 }
 
-TEST(WrapHexes, IsValidForRandomBoxes) {
+TEST(PadHexes, IsValidForRandomBoxes) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
     Vec3 lo, hi;
@@ -111,20 +112,20 @@ TEST(WrapHexes, IsValidForRandomBoxes) {
     const Vec3 d = hi - lo;
     const auto area = static_cast<std::size_t>(2 * (d.x * d.y + d.y * d.z + d.z * d.x));
     EXPECT_EQ(s.state.mesh.num_hexes(), 125u + area);
-    EXPECT_EQ(problem_of(s.state, s.marks), "");
+    EXPECT_EQ(problem_of(s.state, s.boundary), "");
   }
 }
 
 TEST(LocalSheets, MendAllEdgesOfATerrace) {
   Smooth s(terrace(7, 3));
-  const auto count = count_local_hexes(s.state, s.marks, s.input());
+  const auto count = count_local_hexes(s.state, s.boundary, s.input());
   ASSERT_FALSE(s.needs().empty());
   const std::size_t num_before = s.state.mesh.num_hexes();
-  const auto left = insert_local_sheets(s.state, s.marks, s.input(), IdVector<GroupId, char>(1, 1));
+  const auto left = pad_needs(s.state, s.boundary, s.input(), IdVector<GroupId, char>(1, 1));
   EXPECT_EQ(left[GroupId(0)], 0);
   EXPECT_TRUE(s.needs().empty());
   EXPECT_GE(s.state.mesh.num_hexes(), num_before + *count[GroupId(0)]);
-  EXPECT_EQ(problem_of(s.state, s.marks), "");
+  EXPECT_EQ(problem_of(s.state, s.boundary), "");
 }
 
 /// The boundary quads at a vertex as a sheet, and how well a direction sees them there.
@@ -133,10 +134,9 @@ Sheet sheet_at(const FitState& state, VertId v) {
   for (const HexFace& face : state.quad_face) {
     const auto quad = face_verts(state.mesh, face);
     if (std::find(quad.begin(), quad.end(), v) == quad.end()) continue;
-    sheet.quads.push_back(quad);
-    sheet.behind.push_back(face.hex);
+    sheet.add_face(state.mesh, face);
   }
-  sheet.verts = sheet_verts(sheet.quads);
+  sheet.collect_verts();
   return sheet;
 }
 
@@ -196,7 +196,7 @@ TEST(MakeVisible, MovesOnlyWhatIsNotSeenAndKeepsHexesValid) {
 TEST(LocalSheets, LeaveGroupsAloneThatAreNotChosen) {
   Smooth s(terrace(5, 2));
   const HexMesh before = s.state.mesh;
-  insert_local_sheets(s.state, s.marks, s.input(), IdVector<GroupId, char>(1, 0));
+  pad_needs(s.state, s.boundary, s.input(), IdVector<GroupId, char>(1, 0));
   EXPECT_EQ(s.state.mesh.hexes, before.hexes);
   EXPECT_EQ(s.state.mesh.positions, before.positions);
 }
