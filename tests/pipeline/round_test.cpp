@@ -1,5 +1,5 @@
 // Which of two rounds of the loop is the better result.
-#include "pipeline/round.h"
+#include "pipeline/loop.h"
 
 #include <cmath>
 
