@@ -23,7 +23,7 @@ struct Demand {
   /// Where finer cells can help; may hold points while the demand is met (places just below the
   /// tolerance). Null: all cells, or none in particular.
   std::vector<Vec3> (*places)(const RoundInput&, const Round&) = nullptr;
-  /// Whether another round can help while the demand is unmet. Null: always.
+  /// Whether another round can help. Null: whenever the demand is unmet.
   bool (*is_curable)(const RoundInput&, const Round&) = nullptr;
   /// What is to be said of an unmet demand; empty = nothing. Null: the judge's own sentences say
   /// it.

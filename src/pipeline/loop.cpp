@@ -26,8 +26,23 @@ constexpr std::size_t kDefectiveShare = 4;
 constexpr double kScaleMargin = 0.98;
 constexpr double kLeastScale = 0.6;  // of one step; the next round sees how far it led
 
+/// Whether the demand calls for another round.
 bool is_open(const RoundInput& input, const Round& round, const Demand& demand) {
-  return !demand.is_met(input, round) && (!demand.is_curable || demand.is_curable(input, round));
+  return demand.is_curable ? demand.is_curable(input, round) : !demand.is_met(input, round);
+}
+
+/// Each further grade of a fault is so many times as far off.
+constexpr double kFarNearer = 4;
+
+/// Grades what fails the gate: 0 = nothing, inverted hexes worst, between them the distance in
+/// multiples of the gate's. A boundary that touches itself is no worse than a missing part.
+int grade_fault(const RoundInput& input, const Round& round) {
+  if (is_within_gate(input, round)) return 0;
+  int grade = 1;
+  double limit = kFarNearer * kGateFactor * input.options.sizing.tolerance;
+  for (; grade < 50 && max_distance(round) > limit; limit *= kFarNearer) ++grade;
+  const bool is_usable = round.fit.mesh.num_hexes() > 0 && round.verdict.quality.num_inverted == 0;
+  return is_usable ? grade : grade + 100;
 }
 
 /// Whether there is nothing to refine for but the distances.
@@ -77,6 +92,8 @@ bool is_content(const RoundInput& input, const Round& round) {
 }
 
 bool is_better(const RoundInput& input, const Round& a, const Round& b) {
+  const int fault_a = grade_fault(input, a), fault_b = grade_fault(input, b);
+  if (fault_a != fault_b) return fault_a < fault_b;
   for (const Demand& demand : demands()) {
     const bool is_met = demand.is_met(input, a);
     if (is_met != demand.is_met(input, b)) return is_met;

@@ -17,7 +17,8 @@ bool is_content(const RoundInput& input, const Round& round);
 /// Whether a next grid of so many cells would break kMaxGrowth.
 bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells);
 
-/// Whether `a` is the better result: the first demand that only one of them meets decides. When
+/// Whether `a` is the better result. Beyond the gate the one without inverted hexes, then one that
+/// is several times nearer. Then the first demand that only one of them meets decides. When
 /// both meet the same, the shortfall of the first that is missed decides; when none is missed by
 /// an amount, the smaller mesh.
 bool is_better(const RoundInput& input, const Round& a, const Round& b);
