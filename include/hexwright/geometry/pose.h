@@ -1,0 +1,23 @@
+// The orthogonal frame that most of a part's faces follow, so that the lattice lies along them.
+//
+// Hexes stand along the lattice's axes: a plane face across them becomes a staircase that the fit
+// has to press flat, which costs hexes, quality and creases (docs/algorithms/placement.md).
+#pragma once
+
+#include "hexwright/geometry/rotation.h"
+#include "hexwright/mesh/tri_mesh.h"
+
+namespace hexwright {
+
+/// The rotation into the dominant orthogonal frame of the faces' normals. The identity unless that
+/// frame has at least 15% of the area along its axes and 8% more than the given one. Axes keep the
+/// order and the signs nearest to the given ones. Linear; the same for any order of triangles up to
+/// rounding.
+Rotation find_pose(const TriMesh& surface);
+
+/// A copy of the surface, turned. Vertices of faces that lie in one plane across an axis, to within
+/// `tolerance` (a length), get exactly one coordinate there: rounding would leave a face that is
+/// nearly, but not quite, on a lattice plane. The identity changes nothing.
+TriMesh turn_surface(const TriMesh& surface, const Rotation& pose, double tolerance);
+
+}  // namespace hexwright
