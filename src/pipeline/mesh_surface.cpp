@@ -2,7 +2,6 @@
 #include "hexwright/pipeline/mesh_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,21 +10,12 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/pose.h"
 #include "hexwright/geometry/similarity.h"
-#include "hexwright/grid/rescale.h"
-#include "hexwright/pipeline/fewest_hexes.h"
 
-#include "pipeline/round.h"
+#include "pipeline/loop.h"
 #include "pipeline/stage_log.h"
 
 namespace hexwright {
 namespace {
-
-/// Rounds without an improvement after which the loop ends: what still misses is out of its reach.
-constexpr int kPatience = 3;
-
-/// Open or overlapping surfaces leave misses that no depth of cells cures, where parts meet: the
-/// loop gets this share of its budget.
-constexpr std::size_t kDefectiveShare = 4;
 
 /// Options that follow from others, for a surface in unit coordinates.
 MeshOptions resolve_options(MeshOptions options, double diagonal) {
@@ -72,20 +62,6 @@ void warn_unmatched(const FeatureGraph& features, const Context& context) {
                     features.num_unmatched_segments));
 }
 
-/// Completes a grid, with its levels evened out where transitions cost more than they save, unless
-/// they are as even as they should be.
-CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even = false) {
-  const CompleteOptions& options = input.options.complete;
-  EvenOptions even = input.options.even;
-  if (is_even) even.transition_cost = 0;
-  CompleteResult evened = even_levels(grid, input.tree, options, even, input.context).completed;
-  if (options.pairing != Pairing::Sheets) return evened;
-  CompleteResult fewest = complete_with_fewest_hexes(evened.grid, options, input.context);
-  fewest.report.num_input_cells = evened.report.num_input_cells;
-  fewest.report.num_split_input = evened.report.num_split_input;
-  return fewest;
-}
-
 /// Completes the a-priori grid; when the result breaks the budget, builds the grid again one level
 /// less deep.
 CompleteResult complete_within_budget(const RoundInput& input, const FeatureGraph& features,
@@ -117,86 +93,6 @@ CompleteResult complete_within_budget(const RoundInput& input, const FeatureGrap
         completed.grid.num_cells(), input.options.max_hexes, sizing.max_level,
         result.sizing.reached_level));
   }
-}
-
-/// Leaves that the surface may pass, and those that are meshed: cells elsewhere are carved away.
-std::vector<char> find_needed_leaves(const RoundInput& input, const Grid& grid) {
-  std::vector<char> is_needed(grid.num_cells(), 1);
-  if (input.options.fit.carve.side != Side::Inside) return is_needed;
-  parallel_for(
-      grid.num_cells(),
-      [&](std::size_t i) {
-        const Box3 box = cell_box(grid, CellId(i));
-        ClosestFilter filter;
-        filter.max_distance = 0.5 * box.diagonal();
-        is_needed[i] =
-            input.tree.closest(box.center(), filter) || input.tree.is_inside(box.center());
-      },
-      64);
-  return is_needed;
-}
-
-/// The grid for the next round: leaves that hold a miss split, or, where the mean distance alone is
-/// missed, all of them a little smaller. Absent when there is nothing to split.
-std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const GridFrame& least,
-                              RoundRecord& record) {
-  if (const auto scale = scale_for_mean(input, round)) {
-    record.scale = *scale;
-    return rescale_grid(round.grid, *scale, least.root_size, find_needed_leaves(input, round.grid));
-  }
-  const std::vector<char> marks = mark_misses(input, round);
-  record.num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-  if (record.num_marked == 0) return {};
-  return split_to_sizes(split_cells(round.grid, marks), round.crowded_features,
-                        deepest_level(input.options));
-}
-
-/// Fits, measures, splits leaves that hold a miss, and repeats while that is called for and
-/// affordable. Returns the best round.
-Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
-  const MeshOptions& options = input.options;
-  const bool is_sound = input.expected.is_known && result.surface.num_boundary_edges == 0;
-  const std::size_t budget = options.max_loop_hexes / (is_sound ? 1 : kDefectiveShare);
-  Round current = run_round(input, std::move(completed));
-  std::size_t total_hexes = current.record.num_background;
-  Round best = current;
-  while (true) {
-    result.rounds.push_back(current.record);
-    if (result.num_rounds >= options.max_rounds || is_content(input, current)) break;
-    const std::optional<Grid> finer =
-        next_grid(input, current, result.sizing.grid.frame, result.rounds.back());
-    if (!finer) break;
-    const bool is_split = result.rounds.back().num_marked > 0;
-    CompleteResult next = even_out(input, *finer, !is_split);
-    const std::size_t num_cells = next.grid.num_cells();
-    if (num_cells > options.max_hexes || total_hexes + num_cells > budget) {
-      input.context.warn(fmt::format(
-          "refinement stops after round {}: the next grid has {} cells, beyond the budget of {} "
-          "per round or {} over all rounds",
-          result.num_rounds, num_cells, options.max_hexes, budget));
-      break;
-    }
-    if (!is_sound && is_split && is_out_of_proportion(input, current, num_cells)) {
-      input.context.warn(
-          fmt::format("refinement stops after round {}: the next grid has {} cells after {}, more "
-                      "than {} times "
-                      "as many, for a mesh that is {:.2g}% of the diagonal off at most",
-                      result.num_rounds, num_cells, current.grid.num_cells(), kMaxGrowth,
-                      100 * current.record.max_distance));
-      break;
-    }
-    current = run_round(input, std::move(next));
-    total_hexes += current.record.num_background;
-    ++result.num_rounds;
-    if (is_better(input, current, best)) {
-      best = current;
-      result.best_round = result.num_rounds;
-    } else if (result.num_rounds - result.best_round >= kPatience) {
-      result.rounds.push_back(current.record);
-      break;
-    }
-  }
-  return best;
 }
 
 GridFrame to_world(const Similarity& frame, const GridFrame& grid) {
@@ -312,9 +208,9 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   // Grid, hexes, fit; again where the fit missed.
   const RoundInput input{tree, options, expected, context, &features};
   CompleteResult completed = complete_within_budget(input, features, result);
-  take_round(refine_where_missed(input, std::move(completed), result), result);
-
-  apply_gate(input, result);
+  Round best = refine_where_missed(input, std::move(completed), result);
+  apply_gate(input, best, result);
+  take_round(std::move(best), result);
   map_to_world(frame, result);
   check_after_mapping(frame, result);
   result.seconds = clock.seconds();

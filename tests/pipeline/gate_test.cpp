@@ -5,7 +5,7 @@
 #include "hexwright/grid/grid.h"
 
 #include "helpers.h"
-#include "pipeline/round.h"
+#include "pipeline/loop.h"
 
 namespace hexwright {
 namespace {
@@ -29,7 +29,7 @@ class GateTest : public testing::Test {
   /// Runs the gate; failures are returned, warnings left in warnings_.
   std::vector<std::string> failures_of(MeshResult result) {
     warnings_.clear();
-    apply_gate(input(), result);
+    apply_gate(input(), round_of(result), result);
     return result.failures;
   }
 

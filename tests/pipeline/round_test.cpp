@@ -1,11 +1,10 @@
 // Which of two rounds of the loop is the better result.
-#include "pipeline/round.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "helpers.h"
+#include "pipeline/loop.h"
 
 namespace hexwright {
 namespace {
@@ -37,7 +36,15 @@ class RoundTest : public testing::Test {
 TEST_F(RoundTest, ValidityGoesBeforeEverything) {
   Round invalid = round(0.1, 0.9);
   invalid.verdict.failures.push_back("inverted");
+  invalid.verdict.quality.num_inverted = 1;
   expect_better(round(50, 0.01), invalid);
+}
+
+TEST_F(RoundTest, BeyondTheGateAFarNearerRoundIsKept) {
+  Round touching = round(0.2, 0.2);
+  touching.verdict.failures.push_back("non-manifold");
+  expect_better(touching, round(13.6, 0.2));
+  expect_better(round(3, 0.2), touching);
 }
 
 TEST_F(RoundTest, TheGateGoesBeforeQuality) { expect_better(round(1.5, 0.17), round(7.5, 0.2)); }
