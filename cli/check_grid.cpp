@@ -2,6 +2,7 @@
 #include "check_grid.h"
 
 #include <array>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,7 @@ std::string to_json(const Grid& grid, const GridCheck& check, const GridVerdict&
   if (verdict.unpaired) json["first_unpaired"] = verdict.unpaired->message;
   if (!check.before.empty()) json["refines_input"] = !verdict.coarsened;
   json["failures"] = verdict.failures;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void print_verdict(const Grid& grid, const GridCheck& check, const GridVerdict& verdict,
@@ -91,7 +92,7 @@ void check_grid(const GridCheck& check, Program& program) {
   const std::string json = to_json(grid, check, verdict);
   if (!check.report.empty()) write_file_atomically(check.report, json);
   if (check.as_json)
-    fmt::print("{}", json);
+    std::fwrite(json.data(), 1, json.size(), stdout);
   else
     print_verdict(grid, check, verdict, program.console);
   for (const std::string& f : verdict.failures) program.console.fail(check.input + ": " + f);

@@ -1,4 +1,5 @@
 // hexwright check: judges a hex mesh, alone or against its surface, or an adaptive grid.
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -63,7 +64,7 @@ void check_mesh(const CheckCommand& cmd, Program& program) {
   const Verdict verdict = judge_mesh(cmd, mesh, program);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, verdict_to_json(verdict));
   if (cmd.as_json) {
-    fmt::print("{}\n", verdict_to_json(verdict));
+    std::puts(verdict_to_json(verdict).c_str());
   } else {
     program.console.print(fmt::format("{}\n{}", cmd.input, verdict_to_text(verdict)));
   }

@@ -62,7 +62,7 @@ std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
                       {"folded_hexes", folded_to_json(r.folded)},
                       {"warnings", r.warnings}};
   json["verdict"] = nlohmann::ordered_json::parse(verdict_to_json(verdict));
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, const Verdict& verdict,

@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "hexwright/io/atomic_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -16,8 +21,24 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) _exit(130);
+constexpr int kInterruptedCode = 4;       // as for Error{Cancelled}
+constexpr unsigned kSecondsToUnwind = 1;  // for stages that look at the flag seldom
+
+extern "C" void end_now(int) {
+  remove_part_file();
+  constexpr std::string_view kMessage = "error: cancelled\n";
+  if (write(STDERR_FILENO, kMessage.data(), kMessage.size()) < 0) _exit(kInterruptedCode);
+  _exit(kInterruptedCode);
+}
+
+extern "C" void on_interrupt(int number) {
+  if (interrupted.exchange(true)) end_now(number);
+  alarm(kSecondsToUnwind);
+}
+
+/// Messages that cannot be delivered never end a run; C streams, unlike fmt::print, do not throw.
+void send(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
 }
 
 bool is_terminal() {
@@ -29,9 +50,34 @@ bool is_terminal() {
 
 /// Stages look at the flag at their next check and end with Error{Cancelled}; nothing is written
 /// then.
-void install_interrupt_handler() {
+void install_signal_handlers() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGALRM, end_now);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Opened for reading: writes fail, so that lost results are noticed.
+void hold_standard_streams() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
+}
+
+std::string to_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n')
+      line += "\\n";
+    else if (c == '\t')
+      line += "\\t";
+    else if (code < 0x20 || code == 0x7f)
+      line += fmt::format("\\x{:02x}", code);
+    else
+      line += c;
+  }
+  return line;
 }
 
 /// Progress only on a terminal: logs would fill with carriage returns. The number of threads holds
@@ -57,13 +103,13 @@ void Console::show_progress(std::string_view stage, double fraction) {
                                  std::string(kWidth - done, '.'), 100 * fraction);
   if (line == shown_) return;
   shown_ = std::move(line);
-  fmt::print(stderr, "\r\033[K{}", shown_);
+  send(stderr, fmt::format("\r\033[K{}", shown_));
   std::fflush(stderr);
 }
 
 void Console::clear_progress() {
   if (shown_.empty()) return;
-  fmt::print(stderr, "\r\033[K");
+  send(stderr, "\r\033[K");
   shown_.clear();
 }
 
@@ -72,19 +118,28 @@ void Console::print(std::string_view line) { print_block(fmt::format("{}\n", lin
 void Console::print_block(std::string_view text) {
   if (is_quiet) return;
   clear_progress();
-  fmt::print("{}", text);
+  send(stdout, text);
   std::fflush(stdout);  // progress lines of a long run are read as they come
 }
 
 /// Warnings and errors go to stderr even when quiet; stdout is for results.
 void Console::warn(std::string_view message) {
   clear_progress();
-  fmt::print(stderr, "warning: {}\n", message);
+  send(stderr, fmt::format("warning: {}\n", to_one_line(message)));
 }
 
 void Console::fail(std::string_view message) {
   clear_progress();
-  fmt::print(stderr, "error: {}\n", message);
+  send(stderr, fmt::format("error: {}\n", to_one_line(message)));
+}
+
+bool Console::finish_output() {
+  const bool is_flushed = std::fflush(stdout) == 0;
+  const int reason = errno;
+  if (is_flushed && std::ferror(stdout) == 0) return true;
+  fail(is_flushed ? "standard output could not be written"
+                  : fmt::format("standard output could not be written: {}", std::strerror(reason)));
+  return false;
 }
 
 }  // namespace hexwright::cli

@@ -26,6 +26,9 @@ class Console {
   void warn(std::string_view message);      ///< "warning: ..."
   void fail(std::string_view message);      ///< "error: ..."
   void clear_progress();
+  /// Sends the rest of the results; false when some of them could not be written (disk full,
+  /// reader gone, stream closed), which has been said then.
+  bool finish_output();
 
  private:
   void show_progress(std::string_view stage, double fraction);
@@ -34,7 +37,15 @@ class Console {
   std::string shown_;  ///< the progress line on the terminal now
 };
 
-/// Makes Ctrl-C (and SIGTERM) cancel the run; a second one ends the program at once.
-void install_interrupt_handler();
+/// Text on one line of a terminal: control characters as \n, \t or \xHH.
+std::string to_one_line(std::string_view text);
+
+/// Makes Ctrl-C (and SIGTERM) cancel the run: within a second, and a second one at once, with exit
+/// code 4. Signals about full disks and readers that left become errors of the writing call.
+void install_signal_handlers();
+
+/// Occupies the numbers of closed standard streams, so that no output file gets one of them and
+/// is mixed with messages. What is written to such a stream is lost, as asked.
+void hold_standard_streams();
 
 }  // namespace hexwright::cli

@@ -51,13 +51,12 @@ void add_commands(CLI::App& app, Program& program) {
 }
 
 /// No exception leaves: each becomes one line on stderr and an exit code.
-int run(int argc, char** argv) {
-  Program program;
+int run(Program& program, int argc, char** argv) {
   program.executable = argv[0];
   CLI::App app("Adaptive all-hexahedral meshing", "hexwright");
   add_commands(app, program);
   app.failure_message([](const CLI::App*, const CLI::Error& e) {
-    return std::string("error: ") + e.what() + "; --help shows what can be given\n";
+    return "error: " + to_one_line(e.what()) + "; --help shows what can be given\n";
   });
   try {
     app.parse(argc, argv);
@@ -81,6 +80,9 @@ int run(int argc, char** argv) {
 }  // namespace hexwright::cli
 
 int main(int argc, char** argv) {
-  hexwright::cli::install_interrupt_handler();
-  return hexwright::cli::run(argc, argv);
+  hexwright::cli::hold_standard_streams();
+  hexwright::cli::install_signal_handlers();
+  hexwright::cli::Program program;
+  const int exit_code = hexwright::cli::run(program, argc, argv);
+  return program.console.finish_output() ? exit_code : hexwright::cli::OutOfResources;
 }

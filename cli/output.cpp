@@ -49,6 +49,12 @@ void check_outputs(std::initializer_list<std::string> outputs,
     std::error_code ignored;
     if (fs::is_directory(path, ignored))
       throw Error(ErrorCode::CannotOpen, "is a folder; name a file in it", path);
+    if (fs::is_symlink(path, ignored) && !fs::exists(path, ignored))
+      throw Error(ErrorCode::CannotOpen, "is a link to a file that does not exist; remove it",
+                  path);
+    constexpr std::size_t kLongestName = 255;  // bytes; on every file system in use
+    if (fs::path(path).filename().string().size() > kLongestName)
+      throw Error(ErrorCode::CannotOpen, "the name is longer than 255 bytes; shorten it", path);
     const fs::path folder = fs::path(path).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, ignored))
       throw Error(ErrorCode::CannotOpen,

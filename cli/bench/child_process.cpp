@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include <fcntl.h>
@@ -34,7 +35,14 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  const int error = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawnattr_t
+      attributes;  // a group of its own: Ctrl-C on the terminal is the parent's to handle
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  const int error =
+      posix_spawn(&pid_, program.c_str(), &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
     throw Error(ErrorCode::OutOfResources,
@@ -77,6 +85,8 @@ std::filesystem::path own_executable(const std::string& argv0) {
   return error ? std::filesystem::absolute(argv0) : self;
 }
 
+int own_process() { return static_cast<int>(getpid()); }
+
 void limit_own_memory(std::size_t mebibytes) {
   if (mebibytes == 0) return;
   const auto bytes = static_cast<rlim_t>(mebibytes) << 20;
@@ -84,10 +94,11 @@ void limit_own_memory(std::size_t mebibytes) {
   setrlimit(RLIMIT_AS, &limit);
 }
 
-void end_with_parent() {
+void end_with_parent(int parent) {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
+  if (parent > 0 && getppid() != parent) _exit(EXIT_FAILURE);  // it died before the call
 }
 
 std::size_t physical_memory_mebibytes() {

@@ -41,8 +41,11 @@ std::filesystem::path own_executable(const std::string& argv0);
 /// Limits this process' address space; 0 = no limit.
 void limit_own_memory(std::size_t mebibytes);
 
-/// Has the system end this process when its parent dies, where it can.
-void end_with_parent();
+/// Has the system end this process when its parent dies, where it can; at once when `parent` is
+/// not its parent any more.
+void end_with_parent(int parent);
+/// The number of this process, for end_with_parent() in its children.
+int own_process();
 
 /// Physical memory, 0 where the system does not tell.
 std::size_t physical_memory_mebibytes();

@@ -79,9 +79,7 @@ std::vector<Json> write_results(const BenchCommand& cmd, const std::vector<Bench
   return records;
 }
 
-std::vector<BenchModel> choose_models(const BenchCommand& cmd, const Program& program) {
-  std::vector<BenchModel> models =
-      find_models(cmd.models, fingerprint(cmd.options, own_executable(program.executable)));
+std::vector<BenchModel> choose_models(const BenchCommand& cmd, std::vector<BenchModel> models) {
   if (!cmd.only.empty())
     std::erase_if(models, [&](const BenchModel& model) {
       return std::none_of(cmd.only.begin(), cmd.only.end(), [&](const std::string& text) {
@@ -96,7 +94,9 @@ std::vector<BenchModel> choose_models(const BenchCommand& cmd, const Program& pr
 
 void evaluate_folder(const BenchCommand& cmd, Program& program) {
   const Context context = program.console.start();
-  const std::vector<BenchModel> models = choose_models(cmd, program);
+  const std::vector<BenchModel> all =
+      find_models(cmd.models, fingerprint(cmd.options, own_executable(program.executable)));
+  const std::vector<BenchModel> models = choose_models(cmd, all);
   std::error_code error;
   fs::create_directories(cmd.output, error);
   if (error) throw Error(ErrorCode::CannotOpen, "cannot be made: " + error.message(), cmd.output);
@@ -114,10 +114,10 @@ void evaluate_folder(const BenchCommand& cmd, Program& program) {
                                         record["model"].get<std::string>(), describe(record)));
     });
   } catch (const Error&) {
-    write_results(cmd, models);  // what is finished is kept; the same command goes on from there
+    write_results(cmd, all);  // what is finished is kept; the same command goes on from there
     throw;
   }
-  program.console.print(summary_to_text(summarize(write_results(cmd, models))));
+  program.console.print(summary_to_text(summarize(write_results(cmd, all))));
   program.console.print((fs::path(cmd.output) / "report.html").string());
 }
 

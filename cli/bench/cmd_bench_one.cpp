@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 struct BenchOneCommand {
   std::string model, out, name, key;
   std::size_t memory = 0;
+  int parent = 0;  ///< process to end with
   BenchOptions options;
 };
 
@@ -69,7 +70,7 @@ class Illustrator {
 };
 
 void run(BenchOneCommand& cmd, Program& program) {
-  end_with_parent();
+  end_with_parent(cmd.parent);
   limit_own_memory(cmd.memory);
   EvaluateOptions& options = cmd.options.evaluate;
   options.run_dual = !cmd.options.no_dual;
@@ -115,6 +116,7 @@ void add_bench_one_command(CLI::App& app, Program& program) {
   sub->add_option("--name", cmd->name)->required();
   sub->add_option("--key", cmd->key)->required();
   sub->add_option("--memory", cmd->memory);
+  sub->add_option("--parent", cmd->parent);
   add_bench_options(*sub, cmd->options);
   add_console_options(*sub, program);
   sub->callback([cmd, &program] { run(*cmd, program); });

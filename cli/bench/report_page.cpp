@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "hexwright/version.h"
 
@@ -46,9 +48,18 @@ std::string for_script(const Json& json) {
   return text;
 }
 
-void replace(std::string& page, std::string_view mark, std::string_view text) {
-  const std::size_t at = page.find(mark);
-  if (at != std::string::npos) page.replace(at, mark.size(), text);
+/// Puts each text in place of its mark, in the order of the marks on the page: one pass, so that
+/// marks inside the texts are not looked at.
+std::string fill(std::string_view page,
+                 std::initializer_list<std::pair<std::string_view, std::string_view>> parts) {
+  std::string filled;
+  for (const auto& [mark, text] : parts) {
+    const std::size_t at = page.find(mark);
+    if (at == std::string_view::npos) continue;
+    filled.append(page.substr(0, at)).append(text);
+    page.remove_prefix(at + mark.size());
+  }
+  return filled.append(page);
 }
 
 }  // namespace
@@ -63,12 +74,10 @@ std::string make_report_page(const std::vector<Json>& records, const fs::path& o
   }
   const Json data = {
       {"version", HEXWRIGHT_VERSION}, {"summary", summarize(records)}, {"models", models}};
-  std::string page(kReportHtml);
-  replace(page, "/*STYLE*/", kReportCss);
-  replace(page, "/*LIBRARY*/", kChartJs);
-  replace(page, "/*DATA*/", for_script(data));
-  replace(page, "/*SCRIPT*/", kReportJs);
-  return page;
+  return fill(kReportHtml, {{"/*STYLE*/", kReportCss},
+                            {"/*LIBRARY*/", kChartJs},
+                            {"/*DATA*/", for_script(data)},
+                            {"/*SCRIPT*/", kReportJs}});
 }
 
 }  // namespace hexwright::cli

@@ -26,6 +26,12 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Empty when it cannot be read.
+std::string read_if_possible(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// FNV-1a, 64 bits.
 std::uint64_t hash(std::string_view text, std::uint64_t state = 0xcbf29ce484222325u) {
   for (const char c : text) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -42,10 +48,12 @@ std::vector<BenchModel> find_models(const fs::path& folder, const std::string& f
   if (!fs::is_directory(folder))
     throw Error(ErrorCode::CannotOpen, "is not a folder of models", folder.string());
   std::vector<BenchModel> models;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || !has_extension(entry.path().string(), kSurfaceExtensions))
-      continue;
-    const std::uint64_t key = hash(read_text(entry.path()), hash(fingerprint));
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, options)) {
+    if (!has_extension(entry.path().string(), kSurfaceExtensions)) continue;
+    std::error_code error;  // links in a circle: the model's own record says so
+    if (!entry.is_regular_file(error) && !error) continue;
+    const std::uint64_t key = hash(read_if_possible(entry.path()), hash(fingerprint));
     models.push_back({entry.path(), fs::relative(entry.path(), folder).generic_string(),
                       fmt::format("{:016x}", key)});
   }
@@ -77,7 +85,7 @@ bool is_finished(const Json& record) {
 void save_record(const fs::path& out, const std::string& name, const Json& record) {
   const fs::path file = record_file(out, name);
   fs::create_directories(file.parent_path());
-  write_file_atomically(file, record.dump() + "\n");
+  write_file_atomically(file, record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<Json> load_results(const fs::path& folder_or_file) {
@@ -102,7 +110,8 @@ std::vector<Json> load_results(const fs::path& folder_or_file) {
 
 void save_results(const fs::path& out, const std::vector<Json>& records) {
   std::string lines;
-  for (const Json& record : records) lines += record.dump() + "\n";
+  for (const Json& record : records)
+    lines += record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   write_file_atomically(out / "results.jsonl", lines);
 }
 

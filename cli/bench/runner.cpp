@@ -36,6 +36,8 @@ Job start_job(const BenchModel& model, const RunnerOptions& options) {
                                         model.key,
                                         "--memory",
                                         fmt::to_string(options.memory_per_job),
+                                        "--parent",
+                                        fmt::to_string(own_process()),
                                         "--quiet",
                                         "--threads",
                                         fmt::to_string(options.threads_per_job)};

@@ -56,7 +56,7 @@ std::string record_to_json(const ModelRecord& record, int indent) {
   if (record.mesh) json["mesh"] = describe_mesh(*record.mesh);
   if (!record.mesh_failure.empty()) json["mesh"] = {{"failure", record.mesh_failure}};
   json["peak_memory_bytes"] = peak_memory_bytes();
-  return json.dump(indent);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string evaluate_options_to_json(const EvaluateOptions& o) {
@@ -69,7 +69,7 @@ std::string evaluate_options_to_json(const EvaluateOptions& o) {
                        {"max_cells", s.max_cells}}},
                      {"dual", o.run_dual},
                      {"mesh", o.run_mesh ? Json::parse(mesh_options_to_json(o.mesh)) : Json()}};
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace hexwright

@@ -22,7 +22,9 @@ constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};
 
-std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+std::string to_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 

@@ -124,7 +124,7 @@ std::string verdict_to_json(const Verdict& verdict, int indent) {
   if (verdict.distance) json["distance"] = to_json(*verdict.distance);
   if (verdict.features) json["features"] = to_json(*verdict.features);
   if (verdict.surface) json["surface"] = to_json(*verdict.surface);
-  return json.dump(indent);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace hexwright

@@ -283,5 +283,60 @@ class Check(CliTest):
         self.assertFalse(json.loads((self.path / "r.json").read_text())["valid"])
 
 
+class Surroundings(CliTest):
+    """Streams, names, limits: nothing outside the mesh breaks a run."""
+
+    def shell(self, command, *arguments):
+        done = subprocess.run(["bash", "-c", command, str(BINARY), *map(str, arguments)],
+                              capture_output=True, timeout=300)
+        return done.returncode, done.stderr.decode(errors="replace")
+
+    def test_closed_or_full_standard_error_loses_nothing(self):
+        open_box = self.path / "open.obj"
+        open_box.write_text("\n".join(line for line in CUBE.split("\n") if line != "f 5 6 8 7"))
+        for stream in ("2>&-", "2>/dev/full"):
+            out = self.path / "out.vtu"
+            code, _ = self.shell(f'"$0" mesh "$1" -o "$2" --max-level 2 -q {stream}', open_box, out)
+            self.assertIn(code, (0, 1))
+            self.assertTrue(out.exists())
+            out.unlink()
+            self.assertEqual(self.shell(f'"$0" mesh "$1.no" -o "$2" {stream}', self.cube, out)[0], 3)
+
+    def test_results_that_cannot_be_written_exit_with_4(self):
+        out = self.path / "out.vtu"
+        self.run_binary("mesh", self.cube, "-o", out, *COARSE)
+        for stream in (">/dev/full", ">&-"):
+            code, message = self.shell(f'"$0" check "$1" --json {stream}', out)
+            self.assertEqual(code, 4)
+            self.assertIn("standard output could not be written", message)
+
+    def test_a_limit_on_the_size_of_files_is_an_error_that_leaves_nothing(self):
+        out = self.path / "out.vtk"
+        code, message = self.shell('ulimit -f 1; "$0" mesh "$1" -o "$2" --max-level 3 -q', self.cube, out)
+        self.assertEqual(code, 4)
+        self.assertIn("File too large", message)
+        self.assertEqual(self.files(), ["cube.obj"])
+
+    def test_names_of_any_bytes_reach_the_report(self):
+        model = bytes(self.path) + b"/n\xff.obj"
+        Path(self.cube).rename(model.decode(errors="surrogateescape"))
+        report = self.path / "r.json"
+        self.run_binary("mesh", model.decode(errors="surrogateescape"), "-o", self.path / "a.vtu", "--report",
+                        report, *COARSE)
+        json.loads(report.read_text())
+
+    def test_messages_stay_one_line(self):
+        done = self.run_binary("mesh", "no\nerror: \x1b[2J.obj", "-o", self.path / "x.vtu", expect=3)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertNotIn("\x1b", done.stderr)
+
+    def test_links_to_nothing_and_long_names_are_said_before_the_work(self):
+        link = self.path / "link.vtu"
+        link.symlink_to(self.path / "absent.vtu")
+        self.run_binary("mesh", self.cube, "-o", link, expect=3)
+        self.assertTrue(link.is_symlink())
+        self.run_binary("mesh", self.cube, "-o", self.path / ("x" * 252 + ".vtu"), expect=3)
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

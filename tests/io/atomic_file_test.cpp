@@ -52,12 +52,28 @@ TEST(AtomicFile, SymbolicLinksKeepPointingAtTheFile) {
   EXPECT_EQ(test::slurp(folder / "real.txt"), "new");
 }
 
-TEST(AtomicFile, LeftoversOfAKilledRunDoNotDisturb) {
+TEST(AtomicFile, ALinkThatLeadsNowhereIsSaidAndKept) {
+  const TempFolder folder;
+  fs::create_symlink("absent.txt", folder / "link.txt");
+  EXPECT_THROW(write_file_atomically(folder / "link.txt", "new"), Error);
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(folder.num_files(), 1u);
+}
+
+TEST(AtomicFile, NamesAsLongAsFileSystemsAllowAreWritten) {
+  const TempFolder folder;
+  const std::string name(255, 'x');
+  write_file_atomically(folder / name, "whole");
+  EXPECT_EQ(test::slurp(folder / name), "whole");
+}
+
+TEST(AtomicFile, LeftoversOfKilledRunsAreRemoved) {
   const TempFolder folder;
   folder.write(".a.txt.0.part", "half");
+  folder.write(".a.txt.1.part", "half");
   write_file_atomically(folder / "a.txt", "whole");
   EXPECT_EQ(test::slurp(folder / "a.txt"), "whole");
-  EXPECT_EQ(test::slurp(folder / ".a.txt.0.part"), "half");
+  EXPECT_EQ(folder.num_files(), 1u);
 }
 
 }  // namespace

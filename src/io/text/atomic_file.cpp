@@ -4,10 +4,16 @@
 // within a file system. A run that is stopped leaves the old file, or none, and never half of one.
 #include "hexwright/io/atomic_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <string>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "hexwright/base/error.h"
 
@@ -16,66 +22,130 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_write(const fs::path& path, const std::string& reason) {
-  return Error(ErrorCode::CannotOpen,
+Error cannot_write(const fs::path& path, const std::string& reason,
+                   ErrorCode code = ErrorCode::CannotOpen) {
+  return Error(code,
                "cannot write the file: " + reason +
                    "; check that the folder exists, is writable and has space left",
                path.string());
 }
 
-/// Writes and closes; false with errno set when anything fails.
-bool write_and_close(std::FILE* file, std::string_view content) {
-  const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
-                          std::fflush(file) == 0;
-  const int reason = errno;
-  const bool is_closed = std::fclose(file) == 0;
-  if (!is_written) errno = reason;
-  return is_written && is_closed;
+/// What stopped a write that had begun is a lack of resources, not a wrong name.
+Error cannot_finish(const fs::path& path, int reason) {
+  return cannot_write(path, std::strerror(reason), ErrorCode::OutOfResources);
 }
 
-/// A new file beside `target` that nobody else has; empty path with errno set on failure.
-std::FILE* create_beside(const fs::path& target, fs::path& created) {
-  constexpr int kMostAttempts = 1000;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    std::string name = ".";
-    name.append(target.filename().string()).append(".").append(std::to_string(attempt));
-    created = target.parent_path() / name.append(".part");
-    if (std::FILE* file = std::fopen(created.string().c_str(), "wbx")) return file;
-    if (errno != EEXIST) break;
+/// 0, or the errno of what failed.
+int write_all(std::FILE* file, std::string_view content) {
+  const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+                          std::fflush(file) == 0;
+  return is_written ? 0 : errno;
+}
+
+/// The file written aside now, for remove_part_file().
+std::atomic<const char*> part_path{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free, "read in a signal handler");
+
+/// A file beside `target` that nobody else has. It stays locked while it is open: those of other
+/// runs that can be locked were left by runs that were killed.
+class PartFile {
+ public:
+  explicit PartFile(const fs::path& target) : target_(target) {
+    constexpr int kMostAttempts = 1000;
+    int attempt = 0;
+    while (attempt < kMostAttempts && !create(attempt)) {
+      if (errno != EEXIST) throw cannot_write(target, std::strerror(errno));
+      if (!remove_if_left(name(attempt))) ++attempt;
+    }
+    if (!file_) throw cannot_write(target, "too many unfinished files are beside it");
+    while (remove_if_left(name(++attempt))) {
+    }
   }
-  return nullptr;
+  ~PartFile() {
+    part_path = nullptr;
+    if (!is_renamed_) std::remove(path_.c_str());
+    std::fclose(file_);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  /// Writes, syncs and renames; 0, or the errno of what failed.
+  int finish(std::string_view content) {
+    if (const int reason = write_all(file_, content)) return reason;
+    // File systems that cannot sync (EINVAL) write in order or not at all.
+    if (fsync(fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) return errno;
+    if (std::rename(path_.c_str(), target_.c_str()) != 0) return errno;
+    is_renamed_ = true;
+    return 0;
+  }
+
+ private:
+  /// Cut so that it is legal wherever the target's is; names that agree so far take other numbers.
+  std::string name(int attempt) const {
+    constexpr std::size_t kMostBytes = 240;
+    std::string name = ".";
+    name.append(target_.filename().string(), 0, kMostBytes).append(".");
+    name.append(std::to_string(attempt)).append(".part");
+    return (target_.parent_path() / name).string();
+  }
+
+  bool create(int attempt) {
+    path_ = name(attempt);
+    file_ = std::fopen(path_.c_str(), "wbx");
+    if (!file_) return false;
+    part_path = path_.c_str();
+    struct stat status = {};
+    flock(fileno(file_), LOCK_EX | LOCK_NB);
+    if (fstat(fileno(file_), &status) == 0 && status.st_nlink > 0) return true;
+    part_path = nullptr;  // another run took it for a left one before it was locked
+    std::fclose(file_);
+    file_ = nullptr;
+    errno = EEXIST;
+    return false;
+  }
+
+  static bool remove_if_left(const std::string& path) {
+    const int file = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return false;
+    const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && unlink(path.c_str()) == 0;
+    close(file);
+    return is_left;
+  }
+
+  fs::path target_;
+  std::string path_;
+  std::FILE* file_ = nullptr;
+  bool is_renamed_ = false;
+};
+
+void write_to_device(const fs::path& path, std::string_view content) {
+  std::FILE* device = std::fopen(path.string().c_str(), "wb");  // /dev/null, a pipe
+  if (!device) throw cannot_write(path, std::strerror(errno));
+  const int reason = write_all(device, content);
+  std::fclose(device);
+  if (reason != 0) throw cannot_finish(path, reason);
 }
 
 }  // namespace
+
+void remove_part_file() noexcept {
+  if (const char* path = part_path.load()) unlink(path);
+}
 
 /// Symbolic links are followed, so that the link stays a link. Devices and pipes cannot be replaced
 /// and are written to directly.
 void write_file_atomically(const fs::path& path, std::string_view content) {
   std::error_code ignored;
-  const fs::path resolved =
-      fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+  const bool is_link = fs::is_symlink(path, ignored);
+  if (is_link && !fs::exists(path, ignored))
+    throw cannot_write(path, "it is a link to a file that does not exist");
+  const fs::path resolved = is_link ? fs::weakly_canonical(path, ignored) : path;
   const fs::path& target = resolved.empty() ? path : resolved;
   if (fs::is_directory(target, ignored)) throw cannot_write(path, "it is a folder");
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
-    std::FILE* device = std::fopen(target.string().c_str(), "wb");  // /dev/null, a pipe
-    if (!device || !write_and_close(device, content))
-      throw cannot_write(path, std::strerror(errno));
-    return;
-  }
-  fs::path aside;
-  std::FILE* file = create_beside(target, aside);
-  if (!file) throw cannot_write(path, std::strerror(errno));
-  if (!write_and_close(file, content)) {
-    const std::string reason = std::strerror(errno);
-    fs::remove(aside, ignored);
-    throw cannot_write(path, reason);
-  }
-  std::error_code error;
-  fs::rename(aside, target, error);
-  if (error) {
-    fs::remove(aside, ignored);
-    throw cannot_write(path, error.message());
-  }
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
+    return write_to_device(target, content);
+  PartFile part(target);
+  if (const int reason = part.finish(content)) throw cannot_finish(path, reason);
 }
 
 }  // namespace hexwright
