@@ -1,10 +1,12 @@
 // The library keeps no state of its own: calls in several threads do not meet.
+#include <atomic>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "helpers.h"
 #include "hexwright/pipeline/mesh_surface.h"
+
+#include "helpers.h"
 #include "solids.h"
 
 namespace hexwright {
