@@ -18,7 +18,6 @@ namespace hexwright::relax {
 /// What part of the surface a vertex belongs to. Interior vertices belong to none.
 enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
 
-/// Copied as a whole to try a variant and go back.
 /// Where and how a Surface vertex last looked for its target: unless one of these changes, it would
 /// find the same again.
 struct TargetQuery {
@@ -27,6 +26,7 @@ struct TargetQuery {
   PatchId patch;
 };
 
+/// Copied as a whole to try a variant and go back.
 struct FitState {
   explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) { rebuild(); }
 
