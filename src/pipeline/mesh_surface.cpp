@@ -182,6 +182,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   prepared.mesh = to_unit(prepared.mesh, frame);
   const double diagonal = bounding_box(prepared.mesh).diagonal();
   turn_along_faces(given, prepared.mesh, frame);
+  result.pose = frame.pose;
 
   // What the surface is like.
   MeshOptions options = given;

@@ -32,6 +32,15 @@ TEST_P(TurnedBox, IsMeshedAsTheStraightOne) {
   const MeshResult expected = mesh_surface(straight, {}, {});
   const MeshResult result = mesh_surface(box, {}, {});
   EXPECT_TRUE(result.failures.empty());
+  // The grid's cells stand along the pose's axes.
+  const double h = result.grid.frame.root_size;
+  Box3 grid_box, in_grid;
+  for (const LatticeCoord& root : result.grid.roots)
+    for (int d : {0, 1})
+      grid_box.extend(Vec3{(root[0] + d) * h, (root[1] + d) * h, (root[2] + d) * h});
+  for (const Vec3& p : box.positions)
+    in_grid.extend(result.pose.apply(p - result.grid.frame.origin));
+  EXPECT_TRUE(grid_box.contains(in_grid.lo) && grid_box.contains(in_grid.hi));
   EXPECT_EQ(result.mesh.num_hexes(), expected.mesh.num_hexes());
   EXPECT_NEAR(result.verdict.quality.min_scaled_jacobian,
               expected.verdict.quality.min_scaled_jacobian, 1e-3);

@@ -12,6 +12,7 @@
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
 #include "hexwright/geometry/prepare_surface.h"
+#include "hexwright/geometry/rotation.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
@@ -81,6 +82,9 @@ struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
   SurfaceDiagnosis surface;
+  /// How the part was turned to lie along the lattice (see Placement): the rows are the axes, in
+  /// the world, along which the cells of `grid` and `sizing.grid` stand on their frame's origin.
+  Rotation pose;
   Grid grid;            ///< the completed grid of the best round
   SizingResult sizing;  ///< the a-priori grid
   CompleteReport complete;
