@@ -31,18 +31,21 @@ bool is_open(const RoundInput& input, const Round& round, const Demand& demand) 
   return demand.is_curable ? demand.is_curable(input, round) : !demand.is_met(input, round);
 }
 
-/// Each further grade of a fault is so many times as far off.
+/// Each further grade of a fault is so many times as far off; what is farther than the last grade,
+/// a billion times the gate, is all alike.
 constexpr double kFarNearer = 4;
+constexpr int kLastGrade = 15, kUnusable = kLastGrade + 1;
 
-/// Grades what fails the gate: 0 = nothing, inverted hexes worst, between them the distance in
-/// multiples of the gate's. A boundary that touches itself is no worse than a missing part.
+/// Grades what fails the gate: 0 = nothing, then the distance in multiples of the gate's, a mesh
+/// that is empty or has inverted hexes worst. A boundary that touches itself is no worse than a
+/// missing part.
 int grade_fault(const RoundInput& input, const Round& round) {
   if (is_within_gate(input, round)) return 0;
+  if (round.fit.mesh.num_hexes() == 0 || round.verdict.quality.num_inverted > 0) return kUnusable;
   int grade = 1;
   double limit = kFarNearer * kGateFactor * input.options.sizing.tolerance;
-  for (; grade < 50 && max_distance(round) > limit; limit *= kFarNearer) ++grade;
-  const bool is_usable = round.fit.mesh.num_hexes() > 0 && round.verdict.quality.num_inverted == 0;
-  return is_usable ? grade : grade + 100;
+  for (; grade < kLastGrade && max_distance(round) > limit; limit *= kFarNearer) ++grade;
+  return grade;
 }
 
 /// Whether there is nothing to refine for but the distances.

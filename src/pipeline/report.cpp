@@ -44,6 +44,7 @@ Json describe_options(const MeshOptions& o) {
           {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
           {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
           {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
+          {"placement", o.placement == Placement::AsGiven ? "as-given" : "faces"},
           {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
           {"feature_edges_given", o.fit.features.extra_segments.size()},
           {"mean_share", o.mean_share},

@@ -5,6 +5,7 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
+#include "boundary_problems.h"
 #include "fit/curves/curve_convexity.h"
 #include "fit/sheets/failed.h"
 #include "fit/sheets/groups.h"
@@ -17,18 +18,8 @@ namespace hexwright::fitting {
 namespace {
 
 using namespace relax;
-
-double min_jacobian(const HexMesh& mesh) {
-  const auto quality = compute_scaled_jacobians(mesh);
-  return *std::min_element(quality.begin(), quality.end());
-}
-
-std::string problem_of(const FitState& state, const BoundaryState& boundary) {
-  if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
-  if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = boundary.find_problem(state);
-  return problem ? problem->message : "";
-}
+using test::min_jacobian;
+using test::problem_of;
 
 /// Carves a grid, pads it everywhere, fits it smoothly and maps the features.
 struct Scaffold {

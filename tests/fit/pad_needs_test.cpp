@@ -6,6 +6,7 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "boundary_fixtures.h"
+#include "boundary_problems.h"
 #include "fit/carve/set_check.h"
 #include "fit/carve/visible_normal.h"
 #include "fit/sheets/pad.h"
@@ -15,18 +16,8 @@ namespace hexwright::fitting {
 namespace {
 
 using namespace relax;
-
-double min_jacobian(const HexMesh& mesh) {
-  const auto quality = compute_scaled_jacobians(mesh);
-  return *std::min_element(quality.begin(), quality.end());
-}
-
-std::string problem_of(const FitState& state, const BoundaryState& boundary) {
-  if (!compute_hex_neighbors(state.mesh).non_conforming.empty()) return "not conforming";
-  if (!(min_jacobian(state.mesh) > 0)) return "inverted";
-  const auto problem = boundary.find_problem(state);
-  return problem ? problem->message : "";
-}
+using test::min_jacobian;
+using test::problem_of;
 
 /// A hex mesh whose whole boundary is one region without curves.
 struct Smooth {

@@ -5,13 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "random_conflicts.h"
+
 namespace hexwright::labelling {
 namespace {
 
 /// A random graph of few nodes: costs with ties, some labels missing, unequal labels in conflict.
 LabelGraph random_graph(std::mt19937& rng, std::uint32_t num_nodes, double edge_share,
                         bool drops_labels) {
-  std::uniform_real_distribution<> uniform(0, 1);
   LabelGraph graph;
   graph.edges.resize(num_nodes);
   for (std::uint32_t u = 0; u < num_nodes; ++u) {
@@ -20,29 +21,8 @@ LabelGraph random_graph(std::mt19937& rng, std::uint32_t num_nodes, double edge_
     graph.costs.push_back(costs);
     graph.allowed.push_back(drops_labels ? static_cast<LabelMask>(1 + rng() % 255) : 0xff);
   }
-  for (std::uint32_t u = 0; u < num_nodes; ++u)
-    for (std::uint32_t v = u + 1; v < num_nodes; ++v) {
-      if (uniform(rng) > edge_share) continue;
-      LabelEdge forward{v, {}}, backward{u, {}};
-      for (Parity p = 0; p < kNumParities; ++p)
-        for (Parity q = 0; q < kNumParities; ++q)
-          if (p != q && rng() % 3 != 0) {
-            forward.forbids[p] = static_cast<LabelMask>(forward.forbids[p] | 1 << q);
-            backward.forbids[q] = static_cast<LabelMask>(backward.forbids[q] | 1 << p);
-          }
-      graph.edges[u].push_back(forward);
-      graph.edges[v].push_back(backward);
-    }
+  test::add_conflicts(rng, graph, edge_share, 3);
   return graph;
-}
-
-bool is_feasible(const LabelGraph& graph, const std::vector<std::uint8_t>& labels) {
-  for (std::size_t u = 0; u < graph.num_nodes(); ++u) {
-    if (!(graph.allowed[u] >> labels[u] & 1)) return false;
-    for (const LabelEdge& e : graph.edges[u])
-      if (e.forbids[labels[u]] >> labels[e.other] & 1) return false;
-  }
-  return true;
 }
 
 std::int64_t cost_of(const LabelGraph& graph, const std::vector<std::uint8_t>& labels) {
@@ -64,7 +44,7 @@ void for_each_labelling(std::size_t num_nodes, Visit&& visit) {
 std::int64_t least_cost_slowly(const LabelGraph& graph) {
   std::int64_t least = kInfeasibleCost;
   for_each_labelling(graph.num_nodes(), [&](const auto& labels) {
-    if (is_feasible(graph, labels)) least = std::min(least, cost_of(graph, labels));
+    if (test::is_feasible(graph, labels)) least = std::min(least, cost_of(graph, labels));
   });
   return least;
 }
@@ -116,14 +96,14 @@ TEST(LabelGraph, ReplacingPrunedLabelsInOrderKeepsALabellingFeasible) {
     LabelGraph reduced = graph;
     const auto pruned = reduce_graph(reduced, find_groups(graph));
     for_each_labelling(graph.num_nodes(), [&](const auto& before) {
-      if (!is_feasible(graph, before)) return;
+      if (!test::is_feasible(graph, before)) return;
       auto labels = before;
       for (const PrunedLabel& step : pruned)
         if (labels[step.node] == step.label) {
           labels[step.node] = step.better;
           ++num_replaced;
         }
-      EXPECT_TRUE(is_feasible(graph, labels));
+      EXPECT_TRUE(test::is_feasible(graph, labels));
       EXPECT_LE(cost_of(graph, labels), cost_of(graph, before));
     });
   }
@@ -139,16 +119,16 @@ TEST(LabelGraph, EveryExactMethodFindsTheLeastCost) {
     ASSERT_TRUE(eliminated);
     EXPECT_EQ(eliminated->cost, least);
     if (least == kInfeasibleCost) continue;
-    EXPECT_TRUE(is_feasible(graph, eliminated->labels));
+    EXPECT_TRUE(test::is_feasible(graph, eliminated->labels));
     EXPECT_EQ(cost_of(graph, eliminated->labels), least);
     if (k % 3 == 0) continue;  // make_start() wants all labels
     const SearchResult searched = solve_by_search(graph, make_start(graph), 1'000'000);
     EXPECT_TRUE(searched.is_optimal);
     EXPECT_EQ(searched.best.cost, least);
     EXPECT_EQ(searched.lower_bound, least);
-    EXPECT_TRUE(is_feasible(graph, searched.best.labels));
+    EXPECT_TRUE(test::is_feasible(graph, searched.best.labels));
     const SearchResult large = solve_large_group(graph, make_start(graph), std::size_t{1} << 16);
-    EXPECT_TRUE(is_feasible(graph, large.best.labels));
+    EXPECT_TRUE(test::is_feasible(graph, large.best.labels));
     EXPECT_EQ(large.best.cost, least);
     EXPECT_TRUE(large.is_optimal);
   }
@@ -160,11 +140,11 @@ TEST(LabelGraph, PartsOnlyImprove) {
   for (int k = 0; k < 30; ++k) {
     const LabelGraph graph = random_graph(rng, 40, 0.08, false);
     Labelling labelling = make_start(graph);
-    EXPECT_TRUE(is_feasible(graph, labelling.labels));
+    EXPECT_TRUE(test::is_feasible(graph, labelling.labels));
     EXPECT_EQ(labelling.cost, cost_of(graph, labelling.labels));
     const std::int64_t before = labelling.cost;
     improve_by_parts(graph, labelling);
-    EXPECT_TRUE(is_feasible(graph, labelling.labels));
+    EXPECT_TRUE(test::is_feasible(graph, labelling.labels));
     EXPECT_EQ(labelling.cost, cost_of(graph, labelling.labels));
     EXPECT_LE(labelling.cost, before);
     num_improved += labelling.cost < before;

@@ -5,13 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "random_conflicts.h"
+
 namespace hexwright::labelling {
 namespace {
 
 /// Costs as multiples of `step`, and random exclusions of unequal labels on a random graph.
 LabelGraph random_graph(std::mt19937& rng, std::uint32_t num_nodes, double edge_share, int step,
                         unsigned keep_one_in) {
-  std::uniform_real_distribution<> uniform(0, 1);
   LabelGraph graph;
   graph.edges.resize(num_nodes);
   graph.allowed.assign(num_nodes, 0xff);
@@ -22,27 +23,8 @@ LabelGraph random_graph(std::mt19937& rng, std::uint32_t num_nodes, double edge_
              std::popcount(static_cast<unsigned>(p));
     graph.costs.push_back(c);
   }
-  for (std::uint32_t i = 0; i < num_nodes; ++i)
-    for (std::uint32_t j = i + 1; j < num_nodes; ++j) {
-      if (uniform(rng) > edge_share) continue;
-      LabelEdge forward{j, {}}, backward{i, {}};
-      for (Parity p = 0; p < kNumParities; ++p)
-        for (Parity q = 0; q < kNumParities; ++q) {
-          if (p == q || rng() % keep_one_in == 0) continue;
-          forward.forbids[p] = static_cast<LabelMask>(forward.forbids[p] | 1 << q);
-          backward.forbids[q] = static_cast<LabelMask>(backward.forbids[q] | 1 << p);
-        }
-      graph.edges[i].push_back(forward);
-      graph.edges[j].push_back(backward);
-    }
+  test::add_conflicts(rng, graph, edge_share, keep_one_in);
   return graph;
-}
-
-bool is_feasible(const LabelGraph& graph, const std::vector<std::uint8_t>& labels) {
-  for (std::size_t u = 0; u < graph.num_nodes(); ++u)
-    for (const LabelEdge& e : graph.edges[u])
-      if (e.forbids[labels[u]] >> labels[e.other] & 1) return false;
-  return true;
 }
 
 std::int64_t cost_of(const LabelGraph& graph, const std::vector<std::uint8_t>& labels) {
@@ -65,7 +47,7 @@ LeastCosts least_costs_slowly(const LabelGraph& graph) {
   for (std::size_t code = 0; code < std::size_t{1} << (3 * n); ++code) {
     std::vector<std::uint8_t> labels(n);
     for (std::size_t k = 0; k < n; ++k) labels[k] = static_cast<std::uint8_t>(code >> (3 * k) & 7);
-    if (!is_feasible(graph, labels)) continue;
+    if (!test::is_feasible(graph, labels)) continue;
     const std::int64_t cost = cost_of(graph, labels);
     out.least = std::min(out.least, cost);
     for (std::size_t k = 0; k < n; ++k)
@@ -135,7 +117,7 @@ TEST(LargeGroup, IsSolvedOrItsGapIsKnown) {
     start.cost = cost_of(graph, start.labels);
     for (const std::size_t table_entries : {std::size_t{0}, std::size_t{1} << 16}) {
       const SearchResult result = solve_large_group(graph, start, table_entries);
-      EXPECT_TRUE(is_feasible(graph, result.best.labels));
+      EXPECT_TRUE(test::is_feasible(graph, result.best.labels));
       EXPECT_EQ(result.best.cost, cost_of(graph, result.best.labels));
       EXPECT_LE(result.lower_bound / kLeafCost, least);
       EXPECT_GE(result.best.cost / kLeafCost, least);
@@ -166,7 +148,7 @@ TEST(LargeGroup, AThousandClustersComeOutWithASmallGap) {
   Labelling start{std::vector<std::uint8_t>(1000, 0), 0};
   start.cost = cost_of(graph, start.labels);
   const SearchResult by_messages = solve_large_group(graph, start, 0);
-  EXPECT_TRUE(is_feasible(graph, by_messages.best.labels));
+  EXPECT_TRUE(test::is_feasible(graph, by_messages.best.labels));
   const double gap = static_cast<double>(by_messages.best.cost - by_messages.lower_bound) /
                      static_cast<double>(by_messages.best.cost);
   EXPECT_LT(gap, 0.1);

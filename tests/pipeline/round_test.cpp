@@ -33,7 +33,7 @@ class RoundTest : public testing::Test {
   Context context_;
 };
 
-TEST_F(RoundTest, ValidityGoesBeforeEverything) {
+TEST_F(RoundTest, AMeshWithInvertedHexesIsTheWorst) {
   Round invalid = round(0.1, 0.9);
   invalid.verdict.failures.push_back("inverted");
   invalid.verdict.quality.num_inverted = 1;
