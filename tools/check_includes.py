@@ -24,6 +24,7 @@ ALLOWED = {
 }
 # Rooms inside a module, lowest first: a room includes itself and those before it.
 ROOMS = {
+    "geometry": ["frame", "tree", "prepare", "features", "walls"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
     "io": ["text", "surface", "mesh", "grid"],
     "fit": ["carve", "curves", "sheets"],

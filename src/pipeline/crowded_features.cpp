@@ -7,7 +7,7 @@
 
 #include "hexwright/grid/locate.h"
 
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 #include "pipeline/feature_misses.h"
 
 namespace hexwright {

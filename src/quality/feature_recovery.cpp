@@ -7,7 +7,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/judge.h"
 
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 
 namespace hexwright {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "hexwright/base/parallel.h"
 
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 
 namespace hexwright {
 namespace {

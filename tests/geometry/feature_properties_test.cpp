@@ -11,8 +11,8 @@
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/geometry/surface_topology.h"
 
+#include "geometry/prepare/surface_orient.h"
 #include "geometry/random_soup.h"
-#include "geometry/surface_orient.h"
 #include "helpers.h"
 
 namespace hexwright {

@@ -1,5 +1,5 @@
 // Boxes of a point tree against a scan over all points.
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Rays against brute force, the spread of a cone of rays, and shape diameters known in closed form.
-#include "geometry/ray_scene.h"
+#include "geometry/walls/ray_scene.h"
 
 #include <limits>
 #include <numbers>

@@ -1,5 +1,5 @@
 // The passes of the preparation one by one: edges, welding, duplicates, patches over holes.
-#include "geometry/surface_clean.h"
+#include "geometry/prepare/surface_clean.h"
 
 #include <map>
 #include <set>
@@ -8,9 +8,9 @@
 
 #include "hexwright/geometry/surface_topology.h"
 
-#include "geometry/edges_along.h"
+#include "geometry/features/edges_along.h"
+#include "geometry/prepare/surface_orient.h"
 #include "geometry/random_soup.h"
-#include "geometry/surface_orient.h"
 #include "helpers.h"
 
 namespace hexwright {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_soup.h"
-#include "geometry/triangle_math.h"
+#include "geometry/tree/triangle_math.h"
 #include "helpers.h"
 
 namespace hexwright {

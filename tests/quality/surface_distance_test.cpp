@@ -5,7 +5,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 #include "helpers.h"
 #include "quality/triangle_samples.h"
 

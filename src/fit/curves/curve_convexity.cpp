@@ -7,8 +7,8 @@
 
 #include "hexwright/base/function_ref.h"
 
-#include "geometry/surface_edges.h"
-#include "geometry/triangle_math.h"
+#include "geometry/prepare/surface_edges.h"
+#include "geometry/tree/triangle_math.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "hexwright/base/parallel.h"
 
-#include "geometry/surface_edges.h"
+#include "geometry/prepare/surface_edges.h"
 
 namespace hexwright {
 namespace {

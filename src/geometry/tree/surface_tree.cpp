@@ -11,9 +11,9 @@
 #include "hexwright/base/assert.h"
 #include "hexwright/base/parallel.h"
 
-#include "geometry/triangle_bvh.h"
-#include "geometry/triangle_math.h"
-#include "geometry/winding_moments.h"
+#include "geometry/tree/triangle_bvh.h"
+#include "geometry/tree/triangle_math.h"
+#include "geometry/tree/winding_moments.h"
 
 namespace hexwright {
 namespace {

@@ -1,5 +1,5 @@
 // Degenerate and duplicate triangles.
-#include "geometry/surface_clean.h"
+#include "geometry/prepare/surface_clean.h"
 
 #include <algorithm>
 #include <array>

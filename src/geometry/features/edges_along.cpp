@@ -1,10 +1,10 @@
 // Walks from one end of a segment to the other over vertices that lie on it.
-#include "geometry/edges_along.h"
+#include "geometry/features/edges_along.h"
 
 #include <algorithm>
 
-#include "geometry/point_tree.h"
-#include "geometry/surface_edges.h"
+#include "geometry/prepare/surface_edges.h"
+#include "geometry/tree/point_tree.h"
 
 namespace hexwright {
 namespace {

@@ -10,9 +10,9 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/exposure.h"
 
-#include "geometry/edges_along.h"
-#include "geometry/surface_edges.h"
-#include "geometry/triangle_math.h"
+#include "geometry/features/edges_along.h"
+#include "geometry/prepare/surface_edges.h"
+#include "geometry/tree/triangle_math.h"
 
 namespace hexwright {
 namespace {

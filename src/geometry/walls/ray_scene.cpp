@@ -1,6 +1,6 @@
 // The library traces in floats; what it hits is taken from it, how far that is is computed again in
 // doubles. Rays leave from triangles, so the first hits may be the source itself and are passed.
-#include "geometry/ray_scene.h"
+#include "geometry/walls/ray_scene.h"
 
 #include <cstring>
 #include <numbers>
@@ -8,8 +8,8 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 
-#include "geometry/embree.h"
-#include "geometry/triangle_math.h"
+#include "geometry/tree/triangle_math.h"
+#include "geometry/walls/embree.h"
 
 namespace hexwright {
 namespace {

@@ -1,5 +1,5 @@
 // Top-down build: binned surface area heuristic into a binary tree, then collapsed to width four.
-#include "geometry/triangle_bvh.h"
+#include "geometry/tree/triangle_bvh.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 //
 // Based on: Bentley, "Multidimensional binary search trees used for associative searching", CACM
 // 18(9), 1975.
-#include "geometry/point_tree.h"
+#include "geometry/tree/point_tree.h"
 
 #include <algorithm>
 #include <array>

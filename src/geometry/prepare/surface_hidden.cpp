@@ -5,7 +5,7 @@
 
 #include "hexwright/geometry/surface_tree.h"
 
-#include "geometry/surface_clean.h"
+#include "geometry/prepare/surface_clean.h"
 
 namespace hexwright {
 namespace {

@@ -1,6 +1,6 @@
 // Flood fill for agreement inside components, areas for which way a repaired one looks, winding
 // numbers for what lies inside what, and signed volumes for which way is out.
-#include "geometry/surface_orient.h"
+#include "geometry/prepare/surface_orient.h"
 
 #include <algorithm>
 #include <optional>
@@ -8,8 +8,8 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/surface_tree.h"
 
-#include "geometry/surface_edges.h"
-#include "geometry/triangle_math.h"
+#include "geometry/prepare/surface_edges.h"
+#include "geometry/tree/triangle_math.h"
 
 namespace hexwright {
 namespace {

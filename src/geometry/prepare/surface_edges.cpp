@@ -1,5 +1,5 @@
 // Edges by sorting the sides of all triangles: deterministic and free of hashing.
-#include "geometry/surface_edges.h"
+#include "geometry/prepare/surface_edges.h"
 
 #include <algorithm>
 

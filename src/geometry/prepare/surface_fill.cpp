@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/surface_clean.h"
+#include "geometry/prepare/surface_clean.h"
 
 namespace hexwright {
 namespace {

@@ -7,7 +7,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/shape_diameter.h"
 
-#include "geometry/ray_scene.h"
+#include "geometry/walls/ray_scene.h"
 
 namespace hexwright {
 namespace {

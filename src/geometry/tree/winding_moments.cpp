@@ -1,5 +1,5 @@
 // Moments bottom-up, evaluation top-down.
-#include "geometry/winding_moments.h"
+#include "geometry/tree/winding_moments.h"
 
 #include <numbers>
 

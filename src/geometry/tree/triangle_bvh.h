@@ -12,7 +12,7 @@
 
 #include "hexwright/mesh/tri_mesh.h"
 
-#include "geometry/simd.h"
+#include "geometry/tree/simd.h"
 
 namespace hexwright {
 

@@ -9,7 +9,7 @@
 
 #include "hexwright/base/parallel.h"
 
-#include "geometry/ray_scene.h"
+#include "geometry/walls/ray_scene.h"
 
 namespace hexwright {
 namespace {

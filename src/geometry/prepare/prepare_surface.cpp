@@ -7,8 +7,8 @@
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 
-#include "geometry/surface_clean.h"
-#include "geometry/surface_orient.h"
+#include "geometry/prepare/surface_clean.h"
+#include "geometry/prepare/surface_orient.h"
 
 namespace hexwright {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "geometry/triangle_bvh.h"
-#include "geometry/triangle_math.h"
+#include "geometry/tree/triangle_bvh.h"
+#include "geometry/tree/triangle_math.h"
 
 namespace hexwright {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/surface_clean.h"
+#include "geometry/prepare/surface_clean.h"
 
 namespace hexwright {
 namespace {

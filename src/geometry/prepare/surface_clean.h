@@ -5,7 +5,7 @@
 
 #include "hexwright/mesh/tri_mesh.h"
 
-#include "geometry/surface_edges.h"
+#include "geometry/prepare/surface_edges.h"
 
 namespace hexwright {
 
