@@ -87,6 +87,7 @@ struct Attempt {
   FitState state;
   FeatureMapping mapping;
   BoundaryState boundary;
+  PatchIndex patches;
   CurveVerdicts verdicts;
 };
 
@@ -117,7 +118,6 @@ class Fitter {
  public:
   Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
       : surface_(surface),
-        tree_(surface.surface(), surface.diagonal()),
         options_(options),
         context_(context),
         clock_(context, report_.seconds, report_.processor_seconds) {}
@@ -132,30 +132,31 @@ class Fitter {
     const FitState& carved = *kept;
     report_.num_hexes_carved = carved.mesh.num_hexes();
     if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_)};
-    FitState scaffold = carved;
+    Attempt scaffold{carved, {}, {}, {}, {}};  // nothing mapped yet
     clock_.run("pad", 0.2, [&] {
-      if (!pad_boundary(scaffold))
+      if (!pad_boundary(scaffold.state))
         context_.warn("no layer fits under the mesh's boundary; it is fitted without padding");
     });
-    clock_.run("find features", 0.25, [&] { find_features(scaffold); });
+    clock_.run("find features", 0.25, [&] { find_features(scaffold.state); });
     clock_.run("approach", 0.3,
                [&] { approach(scaffold, is_selective() ? kScaffold : kFinal, false); });
-    Attempt result = fit_features(carved, scaffold);
-    finish(result.state);
+    Attempt result = fit_features(carved, scaffold.state);
+    finish(result);
     return conclude(std::move(result));
   }
 
  private:
   // Everything has arrived: the best place for the boundary, then quality at that place.
-  void finish(FitState& state) {
-    clock_.run("balance", 0.88, [&] { balance(state); });
-    clock_.run("polish", 0.9, [&] { polish_worst(state, target(), {}, context_); });
-    clock_.run("snap", 0.93, [&] { snap_gently(state); });
-    clock_.run("lift", 0.95, [&] { lift_worst(state, target(), {}, context_); });
-    clock_.run("balance", 0.96, [&] { balance(state); });
-    clock_.run("snap", 0.97, [&] { settle(state); });
-    clock_.run("smooth", 0.975, [&] { smooth(state); });
-    clock_.run("prove", 0.98, [&] { report_.unproven = mend_unproven(state, target(), context_); });
+  void finish(Attempt& a) {
+    clock_.run("balance", 0.88, [&] { balance(a); });
+    clock_.run("polish", 0.9, [&] { polish_worst(a.state, target(a), {}, context_); });
+    clock_.run("snap", 0.93, [&] { snap_gently(a); });
+    clock_.run("lift", 0.95, [&] { lift_worst(a.state, target(a), {}, context_); });
+    clock_.run("balance", 0.96, [&] { balance(a); });
+    clock_.run("snap", 0.97, [&] { settle(a); });
+    clock_.run("smooth", 0.975, [&] { smooth(a); });
+    clock_.run("prove", 0.98,
+               [&] { report_.unproven = mend_unproven(a.state, target(a), context_); });
   }
 
   FitState keep_hexes(const HexMesh& background) {
@@ -164,11 +165,11 @@ class Fitter {
     return keep_side(background, report_.carve.is_kept, options_.carve.side);
   }
 
-  FitTarget target() const { return {tree_, &features_}; }
+  FitTarget target(const Attempt& a) const { return {surface_, &features_, &a.patches}; }
 
   // From the carve's staircase to the surface; curves, if mapped, are held at first.
-  void approach(FitState& state, const Approach& how, bool hold_curves) {
-    run_schedule(state, target(),
+  void approach(Attempt& a, const Approach& how, bool hold_curves) {
+    run_schedule(a.state, target(a),
                  {{0, 1, 0},
                   geometric_weights(1, 300, how.num_weights),
                   how.sweeps_per_weight,
@@ -202,29 +203,28 @@ class Fitter {
     map_options.is_banned = first.verdicts.is_bad;
     Attempt second = attempt(carved, scaffold, map_options);
     if (second.verdicts.bad_length < first.verdicts.bad_length) return second;
-    tree_.set_patches(compute_patches(surface_.surface(), features_, mapped_curves(first.mapping)));
     return first;
   }
 
   Attempt attempt(const FitState& carved, const FitState& scaffold,
                   const FeatureMapOptions& map_options) {
-    Attempt a{scaffold, {}, {}, {}};
+    Attempt a{scaffold, {}, {}, {}, {}};
     clock_.run("map features", 0.4, [&] { map_curves(map_options, a); });
     if (is_selective()) {
       bool is_new = false;
       clock_.run("pad selectively", 0.42, [&] { is_new = pad(carved, a); });
-      if (is_new) clock_.run("approach", 0.46, [&] { approach(a.state, kPadded, true); });
+      if (is_new) clock_.run("approach", 0.46, [&] { approach(a, kPadded, true); });
     }
     if (!features_.empty()) clock_.run("meet curves", 0.5, [&] { meet_curves(a); });
-    clock_.run("meet surface", 0.6, [&] { meet_surface(a.state); });
+    clock_.run("meet surface", 0.6, [&] { meet_surface(a); });
     clock_.run("refit", 0.7, [&] {
-      refit_stuck(a.state, target(), is_selective() ? RefitOptions{} : kThoroughRefit, context_);
+      refit_stuck(a.state, target(a), is_selective() ? RefitOptions{} : kThoroughRefit, context_);
     });
     if (is_selective()) {
       clock_.run("pad squeezed", 0.8,
-                 [&] { pad_failed_quads(a.state, a.boundary, target(), {}, context_); });
+                 [&] { pad_failed_quads(a.state, a.boundary, target(a), {}, context_); });
     }
-    update_targets(a.state, target(), 0);
+    update_targets(a.state, target(a), 0);
     a.verdicts = judge_curves(a.state, features_, a.mapping);
     return a;
   }
@@ -235,16 +235,17 @@ class Fitter {
   }
 
   void map_curves(const FeatureMapOptions& map_options, Attempt& a) {
-    AttachedFeatures attached = attach_features(a.state, tree_, features_, map_options);
+    AttachedFeatures attached = attach_features(a.state, surface_, features_, map_options);
     a.mapping = std::move(attached.mapping);
     a.boundary = std::move(attached.boundary);
+    a.patches = std::move(attached.patches);
   }
 
   // Back to the carved mesh, with sheets where the mapped curves need them. False when that is one
   // layer under everything, as on shapes whose curves separate nothing: that is the scaffold, which
   // is fitted already.
   bool pad(const FitState& carved, Attempt& a) {
-    SelectivePadding padded = choose_sheets(carved, a.state, a.boundary, target(), context_);
+    SelectivePadding padded = choose_sheets(carved, a.state, a.boundary, target(a), context_);
     if (padded.report.num_groups == 1 && padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes())
       return false;
     a.state = std::move(padded.state);
@@ -255,19 +256,19 @@ class Fitter {
   // Onto the curves, with layers where the mesh needs them to follow the curves.
   void meet_curves(Attempt& a) {
     const std::vector<double> weights = geometric_weights(3, 300, 5);
-    run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
+    run_schedule(a.state, target(a), {{0, 1, 0}, weights, 1, 0.03, true}, context_);
     if (is_selective() || a.state.side == Side::Both)
       return;  // sheets come later; with both sides each would need a counterpart
     if (pad_squeezed_quads(a.state, a.boundary, {}).num_sheets == 0) return;
     a.state.update_sizes();
-    run_schedule(a.state, target(), {{0, 1, 0}, weights, 1, 0.03, false}, context_);
+    run_schedule(a.state, target(a), {{0, 1, 0}, weights, 1, 0.03, false}, context_);
   }
 
   // Onto the surface, and from the condition number's energy to the scaled Jacobian's.
-  void meet_surface(FitState& state) {
-    state.update_sizes();
+  void meet_surface(Attempt& a) {
+    a.state.update_sizes();
     const Approach how = is_selective() ? kClosePadded : kClose;
-    run_schedule(state, target(),
+    run_schedule(a.state, target(a),
                  {{0.9, 1, 0},
                   geometric_weights(300, 1e5, how.num_weights),
                   how.sweeps_per_weight,
@@ -277,30 +278,31 @@ class Fitter {
   }
 
   // The average, as far as the least allows; the best offsets follow the sliding vertices.
-  void smooth(FitState& state) {
+  void smooth(Attempt& a) {
     for (int round = 0; round < kSmoothRounds; ++round) {
-      if (round > 0) balance(state);
-      raise_average(state, target(), {}, context_);
+      if (round > 0) balance(a);
+      raise_average(a.state, target(a), {}, context_);
     }
   }
 
-  void balance(FitState& state) {
+  void balance(Attempt& a) {
     if (options_.patch_verts == PatchVerts::OnSurface) return;
-    update_targets(state, target(), 0);
-    balance_offsets(state, target());
+    update_targets(a.state, target(a), 0);
+    balance_offsets(a.state, target(a));
   }
 
   // Exactly onto the targets where quality hardly suffers ...
-  void snap_gently(FitState& state) {
-    snap_to_targets(state, target(), std::max(options_.snap_quality, 0.4));
+  void snap_gently(Attempt& a) {
+    snap_to_targets(a.state, target(a), std::max(options_.snap_quality, 0.4));
   }
 
   // ... again after the lift, at no cost to the least, and down to the least quality allowed where
   // the distance is worth it.
-  void settle(FitState& state) {
+  void settle(Attempt& a) {
+    FitState& state = a.state;
     const auto quality = compute_scaled_jacobians(state.mesh);
-    snap_to_targets(state, target(), *std::min_element(quality.begin(), quality.end()));
-    update_targets(state, target(), 0);
+    snap_to_targets(state, target(a), *std::min_element(quality.begin(), quality.end()));
+    update_targets(state, target(a), 0);
     std::vector<char> is_miss(state.num_verts(), 0);
     bool any = false;
     for (VertId v : state.kind.ids()) {
@@ -309,8 +311,8 @@ class Fitter {
       any = true;
     }
     if (any) {
-      snap_to_targets(state, target(), options_.snap_quality, is_miss);
-      lift_worst(state, target(), {}, context_);
+      snap_to_targets(state, target(a), options_.snap_quality, is_miss);
+      lift_worst(state, target(a), {}, context_);
     }
     meet_corners(state, kCornerMiss * surface_.diagonal(), options_.snap_quality);
   }
@@ -318,11 +320,11 @@ class Fitter {
   FitResult conclude(Attempt result) {
     FitState& state = result.state;
     HEXWRIGHT_ASSERT(!find_inverted(state.mesh).is_valid());
-    update_targets(state, target(), 0);
+    update_targets(state, target(result), 0);
     report_features(state, features_, result.mapping, report_);
     report_.num_hexes_padded = state.mesh.num_hexes();
     report_.misses = find_misses(state);
-    state.mesh.labels = make_labels(state, result.boundary, tree_);
+    state.mesh.labels = make_labels(state, result.boundary, surface_, result.patches);
     if (state.side ==
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);
@@ -331,7 +333,6 @@ class Fitter {
   }
 
   const SurfaceTree& surface_;
-  SurfaceTree tree_;  // its own, for the patches between mapped curves
   const FitOptions& options_;
   const Context& context_;
   FeatureGraph features_;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "hexwright/quality/hex_quality.h"
 
@@ -187,15 +188,15 @@ PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, 
   return {};
 }
 
-void label(const FitState& state, const HexMesh& mapped, const SurfaceTree& tree,
+void label(const FitState& state, const HexMesh& mapped, const FitTarget& target,
            BoundaryLabels& labels) {
   for (const auto& quad : state.quads) {
     PatchId patch = patch_of_quad(quad, state.patch);
     if (!patch.is_valid()) {
       Vec3 center;
       for (VertId v : quad) center += mapped.positions[v] * 0.25;
-      const auto nearest = tree.closest(center);
-      if (nearest) patch = tree.patch(nearest->tri);
+      const auto nearest = target.tree.closest(center);
+      if (nearest) patch = target.patches->patch(nearest->tri);
     }
     labels.quads.push_back({quad, patch});
     for (std::size_t k = 0; k < 4; ++k) {
@@ -218,11 +219,11 @@ void label(const FitState& state, const HexMesh& mapped, const SurfaceTree& tree
 void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
            const RelaxOptions& options, const Context& context) {
   const FeatureGraph graph = chart_curves(object);
-  SurfaceTree tree(object.surface);
+  const SurfaceTree tree(object.surface);
   IdVector<TriId, PatchId> facet_to_patch(lattice.facets.size());
   for (TriId f : lattice.facets.ids()) facet_to_patch[f] = PatchId(lattice.facet_to_chart[f]);
-  tree.set_patches(facet_to_patch);
-  const FitTarget target{tree, &graph};
+  const PatchIndex patches(tree, std::move(facet_to_patch));
+  const FitTarget target{tree, &graph, &patches};
 
   FitState state(std::move(mapped.mesh));
   constrain(state, mapped.place, object, graph, lattice.facet_to_chart);
@@ -233,7 +234,7 @@ void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& latt
   if (options.pad) pad_and_smooth(state, target, context);
   improve_worst(state, target, options.near_surface, context);
   mapped.mesh = std::move(state.mesh);
-  label(state, mapped.mesh, tree, mapped.mesh.labels);
+  label(state, mapped.mesh, target, mapped.mesh.labels);
 }
 
 }  // namespace hexwright::polycube

@@ -27,7 +27,7 @@ using QuadSamples = std::array<Sample, 4>;
 
 class Balance {
  public:
-  Balance(FitState& state, const FitTarget& target) : state_(state), tree_(target.tree) {}
+  Balance(FitState& state, const FitTarget& target) : state_(state), target_(target) {}
 
   void run(const BalanceOptions& options) {
     find_normals();
@@ -86,13 +86,14 @@ class Balance {
     filter.normal = normalized(area);
     filter.min_cosine = kMinCosine;
     filter.patch = patch_of(quad);
+    filter.patches = target_.patches;
     filter.max_distance = kMaxError * h;
     Sample sample;
-    const auto found = tree_.closest(x, filter);
+    const auto found = target_.tree.closest(x, filter);
     if (!found) return sample;
     const Vec3 offset = x - found->point;
     const double length = norm(offset);
-    Vec3 n = length < 1e-3 * h ? tree_.normal(found->tri) : offset / length;
+    Vec3 n = length < 1e-3 * h ? target_.tree.normal(found->tri) : offset / length;
     if (dot(n, filter.normal) < 0) n = -n;
     sample.error = dot(offset, n);
     sample.weight = norm(area);
@@ -137,7 +138,7 @@ class Balance {
   }
 
   FitState& state_;
-  const SurfaceTree& tree_;
+  const FitTarget& target_;
   IdVector<VertId, Vec3> normal_;
   std::vector<QuadSamples> samples_;
 };

@@ -7,8 +7,8 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/geometry/feature_graph.h"
+#include "hexwright/geometry/patch_index.h"
 #include "hexwright/geometry/side.h"
-#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "relax/vertex_newton.h"
@@ -86,8 +86,9 @@ struct FitState {
 
 /// The surface and its features as the passes see them.
 struct FitTarget {
-  const SurfaceTree& tree;  ///< carries the patches of the mapped curves
+  const SurfaceTree& tree;
   const FeatureGraph* features = nullptr;
+  const PatchIndex* patches = nullptr;  ///< between the mapped curves
 };
 
 }  // namespace hexwright::relax

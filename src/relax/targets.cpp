@@ -32,8 +32,8 @@ IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<c
 
 class SurfaceMatcher {
  public:
-  SurfaceMatcher(const FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal)
-      : tree_(tree),
+  SurfaceMatcher(const FitState& state, const FitTarget& target, VertId v, const Vec3& normal)
+      : target_(target),
         x_(state.mesh.positions[v]),
         normal_(normal),
         h_(state.size[v]),
@@ -64,8 +64,9 @@ class SurfaceMatcher {
     filter.normal = normal_;
     filter.min_cosine = min_cosine;
     filter.patch = patch;
+    filter.patches = target_.patches;
     filter.max_distance = max_distance;
-    return tree_.closest(x_, filter);
+    return target_.tree.closest(x_, filter);
   }
 
   std::optional<ClosestPoint> find_on_patch() const { return find_filtered(-0.2, patch_, 0.3); }
@@ -82,25 +83,25 @@ class SurfaceMatcher {
     return facing;
   }
 
-  const SurfaceTree& tree_;
+  const FitTarget& target_;
   Vec3 x_, normal_;
   double h_;
   PatchId patch_;
   double bound_ = std::numeric_limits<double>::infinity();
 };
 
-void update_surface_target(FitState& state, const SurfaceTree& tree, VertId v, const Vec3& normal) {
+void update_surface_target(FitState& state, const FitTarget& to, VertId v, const Vec3& normal) {
   const TargetQuery query = {state.mesh.positions[v], state.offset[v], state.patch[v]};
   TargetQuery& last = state.query[v];
   if (query.patch == last.patch && query.offset == last.offset &&
       norm_sq(query.from - last.from) < kSamePlace * kSamePlace * state.size[v] * state.size[v])
     return;
-  const auto found = SurfaceMatcher(state, tree, v, normal).find();
+  const auto found = SurfaceMatcher(state, to, v, normal).find();
   if (!found) return;
   last = query;
   const Vec3 offset = state.mesh.positions[v] - found->point;
   const double length = norm(offset), h = state.size[v];
-  Vec3 direction = length < 1e-3 * h ? tree.normal(found->tri) : offset / length;
+  Vec3 direction = length < 1e-3 * h ? to.tree.normal(found->tri) : offset / length;
   if (dot(direction, normal) < 0) direction = -direction;  // outwards, whatever the orientation
   const Vec3 point = found->point + state.offset[v] * direction;
   if (distance(point, state.target[v]) > 1e-5 * h ||
@@ -121,7 +122,7 @@ void update_targets(FitState& state, const FitTarget& target, double hold,
         const VertId v(i);
         if (!only.empty() && !only[i]) return;
         if (state.kind[v] == VertKind::Surface) {
-          update_surface_target(state, target.tree, v, normalized(normals[v]));
+          update_surface_target(state, target, v, normalized(normals[v]));
         } else if (state.kind[v] != VertKind::Interior && target.features) {
           update_feature_target(state, v, target.tree.surface(), *target.features, hold);
         }

@@ -138,7 +138,7 @@ TEST(PillowFailed, KeepsPillowsOnlyWhenTheyMend) {
   FitState state = s.padded;
   BoundaryState boundary = s.attached.boundary;
   const HexMesh before = state.mesh;
-  const FitTarget target{s.tree, &s.features};
+  const FitTarget target{s.tree, &s.features, &s.attached.patches};
   EXPECT_EQ(pad_failed_quads(state, boundary, target, options, {}).num_sheets, 0u);
   EXPECT_EQ(state.mesh.hexes, before.hexes);
   EXPECT_EQ(state.mesh.positions, before.positions);

@@ -83,10 +83,9 @@ Mapped map_all(const OwnedBoundary& boundary, const TriMesh& surface,
   for (const CurvePath& path : m.mapping.curves) m.num_mapped += path.is_mapped() ? 1 : 0;
   const BoundaryGraph graph(boundary.positions.size(), boundary.view().quads);
   m.regions = compute_regions(graph, mark_edges(graph, collect_marked_edges(m.mapping)));
-  SurfaceTree tree(surface);
+  const SurfaceTree tree(surface);
   m.patches = compute_patches(surface, m.features, mapped_curves(m.mapping));
-  tree.set_patches(m.patches);
-  vote_patches(boundary.view(), tree, m.regions);
+  vote_patches(boundary.view(), tree, PatchIndex(tree, m.patches), m.regions);
   return m;
 }
 

@@ -117,7 +117,7 @@ TEST_P(Pillow, OnlyAtWantedVertices) {
 
 TEST_P(Pillow, WhereTheFitFailedKeepsTheMeshValid) {
   TurnedCube c(GetParam());
-  const FitTarget target{c.tree, &c.features};
+  const FitTarget target{c.tree, &c.features, &c.attached.patches};
   run_schedule(c.state, target, {{0, 1, 0}, geometric_weights(1, 300, 5), 1, 0.03, true}, {});
   const SqueezedReport report =
       pad_failed_quads(c.state, c.attached.boundary, target, {0.5, 0.02, 2}, {});
@@ -193,7 +193,8 @@ TEST(BoundaryState, FindsWhatDisagreesWithTheMesh) {
 
 TEST(BoundaryState, LabelsEveryQuadEdgeAndCorner) {
   TurnedCube c(0.4);
-  const BoundaryLabels labels = make_labels(c.state, c.attached.boundary, c.tree);
+  const BoundaryLabels labels =
+      make_labels(c.state, c.attached.boundary, c.tree, c.attached.patches);
   EXPECT_EQ(labels.quads.size(), c.state.quads.size());
   for (const LabeledQuad& quad : labels.quads) EXPECT_TRUE(quad.patch.is_valid());
   EXPECT_EQ(labels.corners.size(), 8u);

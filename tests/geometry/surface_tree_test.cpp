@@ -1,6 +1,6 @@
-#include "hexwright/geometry/surface_tree.h"
-
 #include <gtest/gtest.h>
+
+#include "hexwright/geometry/patch_index.h"
 
 #include "geometry/random_soup.h"
 #include "geometry/tree/triangle_math.h"
@@ -87,15 +87,16 @@ TEST(SurfaceTree, EquallyNearTrianglesGiveTheLowestId) {
 }
 
 TEST(SurfaceTree, FiltersMatchBruteForce) {
-  SurfaceTree tree(test::random_soup(200, 9));
+  const SurfaceTree tree(test::random_soup(200, 9));
   IdVector<TriId, PatchId> patches;
   for (TriId t : tree.surface().tris.ids())
     patches.push_back(PatchId(tree.surface().corners(t)[0].x > 0 ? t.value() % 5 : 5));
-  tree.set_patches(patches);
+  const PatchIndex index(tree, patches);
   std::mt19937_64 random(13);
   for (int i = 0; i < 600; ++i) {
     const Vec3 p = random_point(random, 1.2);
     ClosestFilter filter;
+    filter.patches = &index;
     if (i % 2) {
       filter.normal = normalized(random_point(random));
       filter.min_cosine = i % 3 * 0.4 - 0.2;
@@ -110,9 +111,28 @@ TEST(SurfaceTree, FiltersMatchBruteForce) {
     ASSERT_EQ(found.has_value(), expected.distance <= filter.max_distance);
     if (found) {
       EXPECT_NEAR(std::sqrt(found->distance_sq), expected.distance, 1e-9);
-      EXPECT_TRUE(!filter.patch.is_valid() || tree.patch(found->tri) == filter.patch);
+      EXPECT_TRUE(!filter.patch.is_valid() || index.patch(found->tri) == filter.patch);
     }
   }
+}
+
+TEST(PatchIndex, SeveralServeOneTree) {
+  const SurfaceTree tree(test::unit_cube_surface());
+  IdVector<TriId, PatchId> one(tree.surface().num_tris(), PatchId(0)), own;
+  for (TriId t : one.ids()) own.push_back(PatchId(t.value()));
+  const PatchIndex whole(tree, one), single(tree, own);
+  ClosestFilter filter;
+  filter.patch = PatchId(0);
+  filter.patches = &whole;
+  const Vec3 p = tree.surface().positions[tree.surface().tris[TriId(11)][0]];
+  EXPECT_EQ(tree.closest(p, filter)->tri, tree.closest(p)->tri);
+  filter.patches = &single;
+  EXPECT_EQ(tree.closest(p, filter)->tri, TriId(0));
+  const PatchIndex none;
+  filter.patches = &none;
+  EXPECT_FALSE(tree.closest(p, filter));
+  filter.patches = nullptr;
+  EXPECT_FALSE(tree.closest(p, filter));
 }
 
 TEST(SurfaceTree, NothingIsFoundOnAnEmptySurface) {

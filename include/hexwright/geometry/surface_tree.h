@@ -15,6 +15,9 @@
 
 namespace hexwright {
 
+class PatchIndex;
+struct TriangleBvh;
+
 struct ClosestPoint {
   TriId tri;
   Vec3 point;
@@ -26,12 +29,13 @@ struct ClosestFilter {
   double max_distance = std::numeric_limits<double>::infinity();  ///< farther points are not found
   Vec3 normal;             ///< unit vector compared with triangle normals when min_cosine >= -1
   double min_cosine = -2;  ///< keep triangles with normal . tri_normal >= min_cosine
-  PatchId patch;           ///< keep triangles of this patch when valid (see set_patches)
-  TriId hint;              ///< a triangle likely to be near, e.g. of the last query; speeds up only
+  PatchId patch;           ///< keep triangles of this patch of `patches` when valid
+  const PatchIndex* patches = nullptr;  ///< of the same tree; without it no triangle has a patch
+  TriId hint;  ///< a triangle likely to be near, e.g. of the last query; speeds up only
 };
 
-/// Immutable after construction but for set_patches; queries are thread-safe and deterministic:
-/// among equally near points the lowest triangle id wins.
+/// Immutable after construction; queries are thread-safe and deterministic: among equally near
+/// points the lowest triangle id wins.
 class SurfaceTree {
  public:
   /// `diagonal`: the length that tolerances are shares of, where it is not that of the surface's
@@ -47,10 +51,6 @@ class SurfaceTree {
   /// Unit normal by orientation; zero for a degenerate triangle.
   const Vec3& normal(TriId t) const;
 
-  /// Gives each triangle its patch, for filtered queries. One entry per triangle.
-  void set_patches(IdVector<TriId, PatchId> tri_to_patch);
-  PatchId patch(TriId t) const;
-
   /// The nearest surface point; absent only when the filter excludes everything (or the surface is
   /// empty).
   std::optional<ClosestPoint> closest(const Vec3& p, const ClosestFilter& filter = {}) const;
@@ -65,6 +65,8 @@ class SurfaceTree {
   bool is_inside(const Vec3& p) const { return winding_number(p) > 0.5; }
 
  private:
+  friend class PatchIndex;
+  const TriangleBvh& bvh() const;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

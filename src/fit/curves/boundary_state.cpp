@@ -132,8 +132,8 @@ std::array<VertId, 4> sorted_verts(std::array<VertId, 4> quad) {
   return quad;
 }
 
-AttachedFeatures attach_features(FitState& state, SurfaceTree& tree, const FeatureGraph& features,
-                                 const FeatureMapOptions& options) {
+AttachedFeatures attach_features(FitState& state, const SurfaceTree& tree,
+                                 const FeatureGraph& features, const FeatureMapOptions& options) {
   const BoundaryQuads view = boundary_view(state);
   AttachedFeatures result;
   BoundaryState& boundary = result.boundary;
@@ -141,8 +141,9 @@ AttachedFeatures attach_features(FitState& state, SurfaceTree& tree, const Featu
   boundary.graph = BoundaryGraph(state.num_verts(), view.quads);
   boundary.edge_to_curve = mark_edges(boundary.graph, collect_marked_edges(result.mapping));
   RegionMap regions = compute_regions(boundary.graph, boundary.edge_to_curve);
-  tree.set_patches(compute_patches(tree.surface(), features, mapped_curves(result.mapping)));
-  vote_patches(view, tree, regions);
+  result.patches =
+      PatchIndex(tree, compute_patches(tree.surface(), features, mapped_curves(result.mapping)));
+  vote_patches(view, tree, result.patches, regions);
   boundary.quad_to_region = std::move(regions.quad_to_region);
   boundary.region_to_patch = std::move(regions.region_to_patch);
   forget_features(state);
@@ -152,7 +153,7 @@ AttachedFeatures attach_features(FitState& state, SurfaceTree& tree, const Featu
 }
 
 BoundaryLabels make_labels(const FitState& state, const BoundaryState& boundary,
-                           const SurfaceTree& tree) {
+                           const SurfaceTree& tree, const PatchIndex& patches) {
   BoundaryLabels labels;
   labels.quads.resize(state.quads.size());
   const BoundaryQuads view = boundary_view(state);
@@ -161,7 +162,7 @@ BoundaryLabels make_labels(const FitState& state, const BoundaryState& boundary,
       [&](std::size_t i) {
         const QuadId q(i);
         PatchId patch = boundary.region_to_patch[boundary.quad_to_region[q]];
-        if (!patch.is_valid()) patch = nearest_patch(view, tree, q);
+        if (!patch.is_valid()) patch = nearest_patch(view, tree, patches, q);
         labels.quads[i] = {state.quads[i], patch};
       },
       1024);

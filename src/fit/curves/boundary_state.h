@@ -47,17 +47,18 @@ BoundaryQuads boundary_view(const FitState& state);
 struct AttachedFeatures {
   FeatureMapping mapping;
   BoundaryState boundary;
+  PatchIndex patches;  ///< the surface's patches between the mapped curves
 };
 
-/// Maps the features to the state's boundary, gives the tree the patches between the mapped curves,
-/// and writes kind, patch, curve, arc and feature_point of every boundary vertex (what an earlier
+/// Maps the features to the state's boundary, finds the patches between the mapped curves, and
+/// writes kind, patch, curve, arc and feature_point of every boundary vertex (what an earlier
 /// mapping wrote is forgotten).
-AttachedFeatures attach_features(FitState& state, SurfaceTree& tree, const FeatureGraph& features,
-                                 const FeatureMapOptions& options);
+AttachedFeatures attach_features(FitState& state, const SurfaceTree& tree,
+                                 const FeatureGraph& features, const FeatureMapOptions& options);
 
 /// What users get: patch of each boundary quad, curve of each marked edge, corners. A quad of a
 /// region without a patch gets that of the nearest triangle that faces its way.
 BoundaryLabels make_labels(const FitState& state, const BoundaryState& boundary,
-                           const SurfaceTree& tree);
+                           const SurfaceTree& tree, const PatchIndex& patches);
 
 }  // namespace hexwright::fitting

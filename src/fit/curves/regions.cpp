@@ -25,7 +25,8 @@ double quad_area(const BoundaryQuads& boundary, QuadId q) {
 
 }  // namespace
 
-PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree, QuadId q) {
+PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree,
+                      const PatchIndex& patches, QuadId q) {
   std::array<Vec3, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = boundary.positions[boundary.quads[q][k]];
   const Vec3 center = (p[0] + p[1] + p[2] + p[3]) * 0.25;
@@ -34,7 +35,7 @@ PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree, Qu
   facing.min_cosine = 0.3;
   auto nearest = tree.closest(center, facing);
   if (!nearest) nearest = tree.closest(center);
-  return nearest ? tree.patch(nearest->tri) : PatchId{};
+  return nearest ? patches.patch(nearest->tri) : PatchId{};
 }
 
 std::vector<LabeledEdge> collect_marked_edges(const FeatureMapping& mapping) {
@@ -85,13 +86,14 @@ RegionMap compute_regions(const BoundaryGraph& graph,
   return regions;
 }
 
-void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, RegionMap& regions) {
+void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, const PatchIndex& patches,
+                  RegionMap& regions) {
   std::vector<Ballot> ballots(boundary.quads.size());
   parallel_for(
       ballots.size(),
       [&](std::size_t i) {
         const QuadId q(i);
-        ballots[i] = {regions.quad_to_region[q], nearest_patch(boundary, tree, q),
+        ballots[i] = {regions.quad_to_region[q], nearest_patch(boundary, tree, patches, q),
                       quad_area(boundary, q)};
       },
       64);

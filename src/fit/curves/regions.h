@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hexwright/geometry/surface_tree.h"
+#include "hexwright/geometry/patch_index.h"
 #include "hexwright/mesh/hex_mesh.h"
 
 #include "fit/curves/map_features.h"
@@ -36,11 +36,13 @@ RegionMap compute_regions(const BoundaryGraph& graph,
 
 /// The patch nearest to a quad's centre among triangles that face its way, or among all when none
 /// does.
-PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree, QuadId q);
+PatchId nearest_patch(const BoundaryQuads& boundary, const SurfaceTree& tree,
+                      const PatchIndex& patches, QuadId q);
 
-/// Gives each region the patch that more than half of its area lies nearest to. The tree carries
-/// the patches between the mapped curves (SurfaceTree::set_patches).
-void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, RegionMap& regions);
+/// Gives each region the patch that more than half of its area lies nearest to, among the patches
+/// between the mapped curves.
+void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, const PatchIndex& patches,
+                  RegionMap& regions);
 
 /// Per curve: 1 when mapped; what compute_patches calls a barrier.
 std::vector<char> mapped_curves(const FeatureMapping& mapping);

@@ -10,6 +10,7 @@
 
 #include "hexwright/base/assert.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/geometry/patch_index.h"
 
 #include "geometry/tree/triangle_bvh.h"
 #include "geometry/tree/triangle_math.h"
@@ -17,13 +18,6 @@
 
 namespace hexwright {
 namespace {
-
-/// Patch of a child whose triangles are of several patches.
-constexpr std::int32_t kMixedPatch = -2;
-
-struct ChildPatches {
-  std::int32_t patch[4] = {kMixedPatch, kMixedPatch, kMixedPatch, kMixedPatch};
-};
 
 /// The query point in the frame of the boxes, with the slack that makes every box distance a lower
 /// bound of the true one.
@@ -88,11 +82,8 @@ struct SurfaceTree::Impl {
   double diagonal = 0;
   TriangleBvh bvh;
   IdVector<TriId, Vec3> normals;
-  std::vector<TriangleData> slots;       // triangles in leaf order
-  std::vector<std::int32_t> slot_patch;  // in leaf order; empty before set_patches
+  std::vector<TriangleData> slots;  // triangles in leaf order
   IdVector<TriId, int> tri_to_slot;
-  std::vector<ChildPatches> child_patches;  // per node; empty before set_patches
-  IdVector<TriId, PatchId> patches;
   std::vector<WindingNode> winding;
 
   /// The best so far of one query.
@@ -105,8 +96,6 @@ struct SurfaceTree::Impl {
   };
 
   explicit Impl(TriMesh mesh);
-  void set_patches(IdVector<TriId, PatchId> tri_to_patch);
-  std::int32_t fill_child_patches(int node);
   template <bool kByNormal, bool kByPatch>
   void test_slot(int slot, const Vec3& p, const ClosestFilter& filter, Best& best) const;
   /// Filters are template parameters: plain queries are by far the most, and pay for none.
@@ -136,48 +125,13 @@ SurfaceTree::Impl::Impl(TriMesh mesh)
   winding = compute_winding_nodes(bvh, slots);
 }
 
-void SurfaceTree::Impl::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
-  HEXWRIGHT_ASSERT(tri_to_patch.size() == surface.num_tris());
-  patches = std::move(tri_to_patch);
-  slot_patch.resize(slots.size());
-  for (std::size_t s = 0; s < slots.size(); ++s)
-    slot_patch[s] = patches[bvh.slot_to_tri[s]].value();
-  child_patches.assign(bvh.nodes.size(), {});
-  if (!bvh.nodes.empty()) fill_child_patches(0);
-}
-
-/// Tells for each child whether all below it is one patch, so that a search for another passes it
-/// by.
-std::int32_t SurfaceTree::Impl::fill_child_patches(int node_id) {
-  const BvhNode& node = bvh.nodes[static_cast<std::size_t>(node_id)];
-  ChildPatches& of_node = child_patches[static_cast<std::size_t>(node_id)];
-  constexpr std::int32_t kNone = -3;
-  const auto merge = [](std::int32_t a, std::int32_t b) {
-    return a == kNone || a == b ? b : kMixedPatch;
-  };
-  std::int32_t all = kNone;
-  for (int k = 0; k < 4; ++k) {
-    std::int32_t patch = kNone;
-    if (!node.is_leaf(k)) {
-      patch = fill_child_patches(node.child[k]);
-    } else {
-      if (node.leaf_count(k) == 0) continue;
-      for (int i = 0; i < node.leaf_count(k); ++i)
-        patch = merge(patch, slot_patch[static_cast<std::size_t>(node.leaf_first(k) + i)]);
-    }
-    of_node.patch[k] = patch;
-    all = merge(all, patch);
-  }
-  return all;
-}
-
 template <bool kByNormal, bool kByPatch>
 void SurfaceTree::Impl::test_slot(int slot, const Vec3& p, const ClosestFilter& filter,
                                   Best& best) const {
   const auto s = static_cast<std::size_t>(slot);
   const TriangleData& t = slots[s];
   if constexpr (kByPatch)
-    if (slot_patch[s] != filter.patch.value()) return;
+    if (filter.patches->slot_to_patch_[s] != filter.patch.value()) return;
   if constexpr (kByNormal)
     if (!(dot(filter.normal, t.normal) >= filter.min_cosine)) return;
   const Vec3 ap = p - t.a;
@@ -213,8 +167,9 @@ void SurfaceTree::Impl::search(const Vec3& p, const ClosestFilter& filter, Best&
     for (int k = 0; k < 4; ++k) {
       if (!(distance_sq[k] <= limit)) continue;
       if constexpr (kByPatch) {
-        const auto patch = child_patches[static_cast<std::size_t>(entry.child)].patch[k];
-        if (patch != filter.patch.value() && patch != kMixedPatch) continue;
+        const auto& of_node = filter.patches->nodes_[static_cast<std::size_t>(entry.child)];
+        if (of_node.patch[k] != filter.patch.value() && of_node.patch[k] != PatchIndex::kMixed)
+          continue;
       }
       stack.push_sorted({distance_sq[k], node.child[k]}, from);
     }
@@ -233,20 +188,16 @@ const TriMesh& SurfaceTree::surface() const { return impl_->surface; }
 const Box3& SurfaceTree::box() const { return impl_->box; }
 double SurfaceTree::diagonal() const { return impl_->diagonal; }
 const Vec3& SurfaceTree::normal(TriId t) const { return impl_->normals[t]; }
-PatchId SurfaceTree::patch(TriId t) const {
-  return impl_->patches.empty() ? PatchId() : impl_->patches[t];
-}
 
-void SurfaceTree::set_patches(IdVector<TriId, PatchId> tri_to_patch) {
-  impl_->set_patches(std::move(tri_to_patch));
-}
+const TriangleBvh& SurfaceTree::bvh() const { return impl_->bvh; }
 
 std::optional<ClosestPoint> SurfaceTree::closest(const Vec3& p, const ClosestFilter& filter) const {
   const Impl& tree = *impl_;
   const bool by_normal = filter.min_cosine >= -1;
-  const bool by_patch = filter.patch.is_valid() && !tree.patches.empty();
-  if (tree.bvh.nodes.empty() || (filter.patch.is_valid() && tree.patches.empty()))
-    return std::nullopt;
+  const bool by_patch = filter.patch.is_valid();
+  if (tree.bvh.nodes.empty()) return std::nullopt;
+  if (by_patch && (!filter.patches || filter.patches->empty())) return std::nullopt;
+  HEXWRIGHT_ASSERT(!by_patch || filter.patches->slot_to_patch_.size() == tree.slots.size());
   if (!(filter.max_distance >= 0)) return std::nullopt;
   Impl::Best best;
   best.distance_sq = filter.max_distance * filter.max_distance;
