@@ -10,7 +10,7 @@
 namespace hexwright {
 
 /// The rotation into the dominant orthogonal frame of the faces' normals. The identity unless that
-/// frame has at least 15% of the area along its axes and 8% more than the given one. Axes keep the
+/// frame has at least 25% of the area along its axes and 10% more than the given one. Axes keep the
 /// order and the signs nearest to the given ones. Linear; the same for any order of triangles up to
 /// rounding.
 Rotation find_pose(const TriMesh& surface);
