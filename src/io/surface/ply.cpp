@@ -8,6 +8,8 @@
 // anywhere.
 #include <optional>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/surface/polygon_soup.h"
 #include "io/text/byte_reader.h"
 #include "io/text/file_bytes.h"
@@ -222,6 +224,7 @@ class PlyReader {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;  // holds no data, whatever its count says
       for (std::size_t i = 0; i < element.count; ++i) {
+        check_cancelled_();
         body_.begin(element, i);
         read_element(element);
       }
@@ -339,6 +342,7 @@ class PlyReader {
 
   const PlyHeader& header_;
   Body body_;
+  CancelCheck check_cancelled_;
   PolygonSoup soup_;
 };
 
