@@ -1,6 +1,7 @@
 // hexwright dual: the conforming hex mesh of a completed grid.
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,13 @@ struct DualCommand {
   bool no_optimize = false;
 };
 
+/// Blocks are made with weak balance at least; sheets with that or the relaxed one, which do not
+/// imply each other.
+std::optional<Issue> find_unbalanced_for(DualMode mode, const Grid& grid) {
+  auto issue = find_unbalanced(grid, Balance::Weak);
+  return issue && mode == DualMode::Sheets ? find_unbalanced(grid, Balance::Relaxed) : issue;
+}
+
 /// `auto` looks for blocks and takes sheets where there are none. What the mode needs is checked
 /// first: a message that names the command to run is worth more than a dual that fails half-way.
 void run(const DualCommand& cmd, Program& program) {
@@ -32,9 +40,8 @@ void run(const DualCommand& cmd, Program& program) {
   options.optimize = !cmd.no_optimize;
   if (cmd.mode == "sheets" || (cmd.mode == "auto" && find_unpaired(grid)))
     options.mode = DualMode::Sheets;
-  const Balance needed = options.mode == DualMode::Sheets ? Balance::Relaxed : Balance::Weak;
   const DualResult result = naming_file(cmd.input, [&] {
-    if (const auto issue = find_unbalanced(grid, needed))
+    if (const auto issue = find_unbalanced_for(options.mode, grid))
       throw Error(ErrorCode::BadGeometry,
                   issue->message + "; run 'hexwright complete' on the grid first");
     return build_dual(grid, options, context);
