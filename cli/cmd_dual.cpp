@@ -25,7 +25,7 @@ struct DualCommand {
 /// first: a message that names the command to run is worth more than a dual that fails half-way.
 void run(const DualCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report}, {cmd.input});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start();
   const Grid grid = read_grid(cmd.input);
   DualOptions options;
@@ -39,7 +39,7 @@ void run(const DualCommand& cmd, Program& program) {
                   issue->message + "; run 'hexwright complete' on the grid first");
     return build_dual(grid, options, context);
   });
-  write_mesh_with_quality(cmd.output, result.mesh);
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, dual_to_json(result.report));
   program.console.print(
       fmt::format("{}: {} hexes ({}), scaled Jacobian min {:.3f}, average {:.3f}", cmd.output,
@@ -53,7 +53,8 @@ void add_dual_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<DualCommand>();
   CLI::App* sub = app.add_subcommand("dual", "Conforming hex mesh of a completed grid");
   sub->add_option("input", cmd->input, "Completed grid: .cells, .htg, .vtu or .mesh")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   sub->add_option("--mode", cmd->mode,
                   "'blocks' needs a paired grid, 'sheets' a balanced one; 'auto' looks")
       ->check(CLI::IsMember({"auto", "blocks", "sheets"}))
