@@ -20,7 +20,7 @@ namespace {
 
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
-  std::string input, output, report, picture, grid, features;
+  std::string input, output, format, report, picture, grid, features;
   MeshOptions options;
 };
 
@@ -39,7 +39,7 @@ void run(const MeshCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input, cmd.features});
   if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
@@ -50,15 +50,15 @@ void run(const MeshCommand& cmd, Program& program) {
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
 
+  RunInfo info{cmd.input, cmd.output, num_threads(), {}};
   if (result.mesh.num_hexes() > 0) {
-    write_mesh_with_quality(cmd.output, result.mesh);
+    info.changed_names =
+        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
     if (!cmd.picture.empty())
       write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
   }
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
-  if (!cmd.report.empty())
-    write_file_atomically(cmd.report,
-                          report_to_json(result, options, {cmd.input, cmd.output, num_threads()}));
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, report_to_json(result, options, info));
   if (result.mesh.num_hexes() > 0) print_summary(cmd, result, program.console);
   for (const std::string& f : result.failures) program.console.fail(cmd.input + ": " + f);
   program.exit_code = result.failures.empty() ? Valid : FailsGate;
@@ -70,9 +70,11 @@ void add_mesh_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<MeshCommand>();
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   sub->add_option("--save-grid", cmd->grid,

@@ -173,6 +173,8 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"fit", describe_fit(result.fit)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
+  for (const ChangedName& name : run.changed_names)
+    report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hexwright/io/set_table.h"
 #include "hexwright/pipeline/mesh_surface.h"
 
 namespace hexwright {
@@ -11,6 +13,7 @@ namespace hexwright {
 struct RunInfo {
   std::string input, output;  ///< paths as given
   int num_threads = 0;
+  std::vector<ChangedName> changed_names;  ///< of sets, by the output's format
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
