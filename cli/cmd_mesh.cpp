@@ -29,6 +29,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
                             result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
+  for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
@@ -79,6 +80,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
     cmd->options.loop_extra_levels = 0;
   });
   add_placement_option(*sub, cmd->options);
+  add_prepare_options(*sub, cmd->options.prepare);
   sub->add_flag("--no-loop", cmd->no_loop,
                 "A single pass with a stricter a-priori sizing, instead of refining where the fit "
                 "missed");

@@ -125,6 +125,21 @@ void add_placement_option(CLI::App& cmd, MeshOptions& options) {
              "the given axes");
 }
 
+void add_prepare_options(CLI::App& cmd, PrepareOptions& options) {
+  add_choice(cmd, "--parts", options.parts,
+             {{"unite", Parts::Unite}, {"separate", Parts::Separate}, {"as-is", Parts::AsIs}},
+             "Solids that overlap or touch: united; those that only touch kept apart; or all "
+             "surfaces left as they are");
+  cmd.add_option_function<std::string>(
+         "--min-part",
+         [&options](const std::string& text) {
+           options.min_part = parse_share("--min-part", text);
+         },
+         "Parts no longer than this share of the diagonal are left out, with a warning, and voids "
+         "filled [the tolerance]")
+      ->type_name("SHARE");
+}
+
 void add_feature_options(CLI::App& cmd, FeatureOptions& options) {
   cmd.add_option_function<double>(
          "--feature-angle",

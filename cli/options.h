@@ -28,6 +28,9 @@ void add_complete_options(CLI::App& cmd, CompleteOptions& options);
 /// --placement.
 void add_placement_option(CLI::App& cmd, MeshOptions& options);
 
+/// --parts, --min-part.
+void add_prepare_options(CLI::App& cmd, PrepareOptions& options);
+
 /// --feature-angle.
 void add_feature_options(CLI::App& cmd, FeatureOptions& options);
 
