@@ -28,6 +28,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
                             result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
+  for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
