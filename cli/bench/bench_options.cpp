@@ -37,7 +37,8 @@ void add_bench_options(CLI::App& cmd, BenchOptions& options) {
       ->capture_default_str();
   cmd.add_flag("--no-dual", options.no_dual, "Count cells only: no dual mesh of the grids");
   cmd.add_flag("--no-mesh", options.no_mesh, "Compare completions only: no final mesh");
-  cmd.add_flag("--no-pictures", options.no_pictures, "Draw nothing");
+  cmd.add_flag("--no-pictures", options.no_pictures,
+               "Draw nothing, and make no pages to look into meshes with");
   cmd.add_option("--picture-width", options.picture_width, "Pixels of each picture in the report")
       ->check(CLI::Range(60, 4000))
       ->capture_default_str();

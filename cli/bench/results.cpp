@@ -70,6 +70,10 @@ fs::path picture_file(const fs::path& out, const std::string& name, const std::s
   return out / "pictures" / (name + "." + part + ".png");
 }
 
+fs::path page_file(const fs::path& out, const std::string& name) {
+  return out / "pages" / (name + ".html");
+}
+
 Json load_record(const fs::path& out, const BenchModel& model) {
   const fs::path file = record_file(out, model.name);
   if (!fs::exists(file)) return {};
