@@ -9,11 +9,11 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 #include "view_file.h"
 
 namespace hexwright::cli {
@@ -58,7 +58,7 @@ void run(const MeshCommand& cmd, Program& program) {
   if (result.mesh.num_hexes() > 0) {
     write_mesh_with_quality(cmd.output, result.mesh);
     if (!cmd.picture.empty())
-      write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+      write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
     if (!cmd.view.empty())
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
   }

@@ -2,14 +2,13 @@
 #include <memory>
 #include <new>
 
-#include "hexwright/render/picture.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "bench/bench_options.h"
 #include "bench/child_process.h"
 #include "bench/results.h"
 #include "commands.h"
 #include "options.h"
-#include "picture_file.h"
 #include "view_file.h"
 
 namespace hexwright::cli {
@@ -64,7 +63,7 @@ class Illustrator {
     view.draw_legend = false;
     const fs::path file = picture_file(cmd_.out, cmd_.name, part);
     fs::create_directories(file.parent_path());
-    write_picture(file.string(), mesh, view);
+    write_png(file, render_hex_mesh(mesh, view));
     drawn_[part] = fs::relative(file, cmd_.out).generic_string();
   }
 

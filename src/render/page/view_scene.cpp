@@ -5,6 +5,8 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "render/face_patches.h"
+
 namespace hexwright {
 namespace {
 
@@ -30,33 +32,7 @@ IdVector<HexId, std::uint8_t> find_depths(const HexNeighbors& adjacency) {
   return depth;
 }
 
-std::array<VertId, 4> sorted(std::array<VertId, 4> quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
-}
-
-// Patches by (hex, lf): 6 per hex.
-using FacePatches = std::vector<PatchId>;
 FaceMask bit_of(int lf) { return static_cast<FaceMask>(1U << lf); }
-std::size_t slot_of(const HexFace& face) {
-  return 6 * face.hex.index() + static_cast<std::size_t>(face.lf);
-}
-
-// A labelled quad lies on one face of the boundary, or on the two of an interface.
-void mark_labels(const HexMesh& mesh, ViewScene& scene, FacePatches& patches) {
-  if (mesh.labels.quads.empty()) return;
-  const VertToHex vert_to_hex(mesh);
-  for (const LabeledQuad& quad : mesh.labels.quads) {
-    const auto wanted = sorted(quad.verts);
-    for (const HexCorner& corner : vert_to_hex[quad.verts[0]])
-      for (int lf = 0; lf < 6; ++lf) {
-        const HexFace face{corner.hex, lf};
-        if (sorted(face_verts(mesh, face)) != wanted) continue;
-        scene.marked[face.hex] = static_cast<FaceMask>(scene.marked[face.hex] | bit_of(lf));
-        patches[slot_of(face)] = quad.patch;
-      }
-  }
-}
 
 std::vector<HexFace> find_marked_faces(const ViewScene& scene) {
   std::vector<HexFace> faces;
@@ -85,15 +61,18 @@ ViewScene make_view_scene(const HexMesh& mesh, const ViewOptions& options) {
   scene.adjacency = compute_hex_neighbors(mesh);
   scene.scaled_jacobian = compute_scaled_jacobians(mesh);
   scene.depth = find_depths(scene.adjacency);
+  const std::vector<PatchId> patches = find_face_patches(mesh);
+  const auto patch_of = [&](const HexFace& face) {
+    return patches.empty() ? PatchId() : patches[face_slot(face)];
+  };
   scene.marked.assign(mesh.num_hexes(), 0);
   for (HexId h : mesh.hexes.ids())
     for (int lf = 0; lf < 6; ++lf)
-      if (!scene.adjacency.neighbor[h][static_cast<std::size_t>(lf)].is_valid())
+      if (!scene.adjacency.neighbor[h][static_cast<std::size_t>(lf)].is_valid() ||
+          patch_of({h, lf}).is_valid())
         scene.marked[h] = static_cast<FaceMask>(scene.marked[h] | bit_of(lf));
-  FacePatches patches(6 * mesh.num_hexes());
-  mark_labels(mesh, scene, patches);
   const auto faces = find_marked_faces(scene);
-  for (const HexFace& face : faces) scene.patch.push_back(patches[slot_of(face)]);
+  for (const HexFace& face : faces) scene.patch.push_back(patch_of(face));
   if (options.surface) {
     scene.distance.resize(faces.size());
     parallel_for(

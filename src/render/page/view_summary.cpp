@@ -9,6 +9,7 @@
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
+#include "render/face_patches.h"
 #include "render/page/view_arrays.h"
 
 namespace hexwright {
@@ -46,7 +47,7 @@ Json list_patches(const HexMesh& mesh) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < patches.size(); ++i)
-    list.push_back({{"name", fmt::format("patch_{}", i)},
+    list.push_back({{"name", patch_name(mesh, PatchId(i))},
                     {"quads", patches[i].num_quads},
                     {"area", patches[i].area}});
   return list;
