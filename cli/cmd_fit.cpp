@@ -19,7 +19,6 @@ namespace {
 
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
-  bool no_carve = false;
   FitOptions options;
 };
 
@@ -35,7 +34,6 @@ void run(const FitCommand& cmd, Program& program) {
     return SurfaceTree(std::move(prepared.mesh));
   });
   FitOptions options = cmd.options;
-  options.do_carve = !cmd.no_carve;
   load_features(cmd.features, surface, options.features);
   const FitResult result =
       naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
@@ -69,8 +67,7 @@ void add_fit_command(CLI::App& app, Program& program) {
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
-  sub->add_flag("--no-carve", cmd->no_carve, "The mesh already stands for the object: only fit it");
-  add_fit_options(*sub, cmd->options);
+  add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

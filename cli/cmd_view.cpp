@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct ViewCommand {
   std::string input, surface, output;
   bool no_open = false;
-  std::size_t max_whole_hexes = ViewOptions().max_whole_hexes;
+  int max_whole_hexes = static_cast<int>(ViewOptions().max_whole_hexes);
 };
 
 /// In a new folder of the system's for temporary files, so that nothing is replaced.
@@ -48,7 +48,7 @@ void run(const ViewCommand& cmd, Program& program) {
   if (!cmd.surface.empty()) tree.emplace(load_surface(cmd.surface, program));
   ViewOptions options;
   options.title = fs::path(cmd.input).filename().string();
-  options.max_whole_hexes = cmd.max_whole_hexes;
+  options.max_whole_hexes = static_cast<std::size_t>(cmd.max_whole_hexes);
   options.surface = tree ? &*tree : nullptr;
   const std::string output = cmd.output.empty() ? temporary_page(cmd.input) : cmd.output;
   naming_file(cmd.input, [&] { write_view(output, mesh, options); });
@@ -68,7 +68,7 @@ void add_view_command(CLI::App& app, Program& program) {
   sub->add_flag("--no-open", cmd->no_open, "Write the page only");
   sub->add_option("--whole-up-to", cmd->max_whole_hexes,
                   "Of a mesh of more hexes the page holds the skin, slices and the worst 10,000")
-      ->check(whole_count())
+      ->check(CLI::Range(1, 2'000'000'000))
       ->capture_default_str();
   add_console_options(*sub, program);
   sub->footer(

@@ -31,8 +31,10 @@ std::vector<PatchId> find_face_patches(const HexMesh& mesh) {
   return patches;
 }
 
-std::string patch_name(const HexMesh&, PatchId patch) {
-  return fmt::format("patch_{}", patch.value());
+std::string patch_name(const HexMesh& mesh, PatchId patch) {
+  const auto& names = mesh.labels.patch_names;
+  const bool has_name = patch.index() < names.size() && !names[patch].empty();
+  return has_name ? names[patch] : fmt::format("patch_{}", patch.value());
 }
 
 }  // namespace hexwright

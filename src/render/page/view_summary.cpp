@@ -33,6 +33,19 @@ double quad_area(const HexMesh& mesh, const std::array<VertId, 4>& quad) {
   return area;
 }
 
+std::string curve_name(const HexMesh& mesh, CurveId curve) {
+  const auto& names = mesh.labels.curve_names;
+  const bool has_name = curve.index() < names.size() && !names[curve].empty();
+  return has_name ? names[curve] : fmt::format("curve_{}", curve.value());
+}
+
+std::string region_name(const HexMesh& mesh, std::int32_t tag) {
+  const auto& names = mesh.region_names;
+  const bool has_name = tag >= 0 && static_cast<std::size_t>(tag) < names.size() &&
+                        !names[static_cast<std::size_t>(tag)].empty();
+  return has_name ? names[static_cast<std::size_t>(tag)] : fmt::format("region_{}", tag);
+}
+
 Json list_patches(const HexMesh& mesh) {
   struct Patch {
     std::size_t num_quads = 0;
@@ -68,7 +81,7 @@ Json list_curves(const HexMesh& mesh) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < curves.size(); ++i)
-    list.push_back({{"name", fmt::format("curve_{}", i)},
+    list.push_back({{"name", curve_name(mesh, CurveId(i))},
                     {"edges", curves[i].num_edges},
                     {"length", curves[i].length}});
   return list;
@@ -86,7 +99,7 @@ Json list_regions(const HexMesh& mesh, const std::vector<std::int32_t>& tags) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < tags.size(); ++i)
-    list.push_back({{"name", fmt::format("region_{}", tags[i])},
+    list.push_back({{"name", region_name(mesh, tags[i])},
                     {"tag", tags[i]},
                     {"hexes", counts[i]},
                     {"volume", volumes[i]}});
