@@ -419,6 +419,24 @@ class Part(PageTest):
         viewer.settle()
         self.assertIn("% of the diagonal", viewer.text("#legend"))
 
+    def test_groups_of_the_surface_are_named(self):
+        """A cube whose lower side is the group inlet, its upper one a name with letters of other alphabets, the rest wall."""
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        groups = {"inlet": [(1, 3, 4, 2)], "ausla\u00df <\u4e2d>": [(5, 6, 8, 7)], "wall": [(1, 5, 7, 3), (2, 4, 8, 6), (1, 2, 6, 5), (3, 7, 8, 4)]}
+        lines = ["v %d %d %d" % c for c in corners]
+        for name, quads in groups.items():
+            lines += [f"g {name}", *("f " + " ".join(map(str, quad)) for quad in quads)]
+        (self.folder / "named.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        run("mesh", self.folder / "named.obj", "-o", self.folder / "named.vtu", "--max-level", "3", "--rounds", "0", "--tolerance", "5%", "--view", self.folder / "named.html")
+        viewer = self.open(self.folder / "named.html")
+        names = viewer.page.locator("#patches li button").all_inner_texts()
+        self.assertEqual(sorted(names)[:2], ["ausla\u00df <\u4e2d>", "inlet"])
+        self.assertTrue(all(name.startswith("wall") for name in sorted(names)[2:]), names)
+        viewer.press("Alt+3")  # from below
+        viewer.page.mouse.click(480, 400)
+        viewer.settle()
+        self.assertIn("patch\ninlet\n", viewer.text("#picked"))
+
     def test_check_writes_one_too(self):
         viewer = self.open(self.folder / "checked.html")
         self.assertIn("valid", viewer.text("#verdict"))
