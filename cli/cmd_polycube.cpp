@@ -13,11 +13,11 @@
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -120,7 +120,8 @@ void run(const PolycubeCommand& cmd, Program& program) {
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);
