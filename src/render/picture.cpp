@@ -71,7 +71,7 @@ double signed_area(const std::array<ScreenPoint, 4>& c) {
 float line_share(const std::array<ScreenPoint, 4>& c) {
   double perimeter = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    perimeter += std::hypot(c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y);
+    perimeter += norm(Vec3{c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y, 0});
   return static_cast<float>(0.85 * std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
 }
 

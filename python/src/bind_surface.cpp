@@ -1,0 +1,103 @@
+// Surfaces and tet meshes.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/io/feature_io.h"
+#include "hexwright/io/mesh_io.h"
+#include "hexwright/io/surface_io.h"
+
+#include "arrays.h"
+#include "binders.h"
+
+namespace hexwright::python {
+namespace {
+
+using namespace nb::literals;
+
+template <std::size_t N>
+std::vector<std::array<VertId, N>> to_elements(const AnyArray& array, std::size_t num_points,
+                                               const std::string& name) {
+  const std::string of = "the " + std::to_string(num_points) + " points";
+  const auto flat = to_indices(array, N, {0, static_cast<std::int64_t>(num_points), of}, name);
+  std::vector<std::array<VertId, N>> elements(flat.size() / N);
+  for (std::size_t i = 0; i < flat.size(); ++i) elements[i / N][i % N] = VertId(flat[i]);
+  return elements;
+}
+
+TriMesh make_surface(const AnyArray& points, const AnyArray& faces) {
+  TriMesh surface;
+  surface.positions = IdVector<VertId, Vec3>(to_points(points, "vertices"));
+  surface.tris =
+      IdVector<TriId, std::array<VertId, 3>>(to_elements<3>(faces, surface.num_verts(), "faces"));
+  return surface;
+}
+
+TetMesh make_tets(const AnyArray& points, const AnyArray& tets) {
+  TetMesh mesh;
+  mesh.positions = IdVector<VertId, Vec3>(to_points(points, "points"));
+  mesh.tets =
+      IdVector<TetId, std::array<VertId, 4>>(to_elements<4>(tets, mesh.num_verts(), "tets"));
+  return mesh;
+}
+
+nb::object points_of(nb::handle self, const IdVector<VertId, Vec3>& positions) {
+  return view_rows(reinterpret_cast<const double*>(positions.raw().data()), positions.size(), 3,
+                   self);
+}
+
+/// The surface and what its reader warned of.
+nb::tuple read(const std::string& path) {
+  SurfaceFile file;
+  {
+    const nb::gil_scoped_release released;
+    file = read_surface(path);
+  }
+  return nb::make_tuple(std::move(file.mesh), file.warnings);
+}
+
+}  // namespace
+
+void bind_surface(nb::module_& module) {
+  nb::class_<TriMesh>(module, "Surface", "A triangle surface.")
+      .def(
+          "__init__",
+          [](TriMesh* self, const AnyArray& points, const AnyArray& faces) {
+            new (self) TriMesh(make_surface(points, faces));
+          },
+          "vertices"_a, "faces"_a)
+      .def_prop_ro(
+          "vertices",
+          [](nb::handle self) { return points_of(self, nb::cast<const TriMesh&>(self).positions); },
+          nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"))
+      .def_prop_ro(
+          "faces",
+          [](nb::handle self) {
+            const auto& tris = nb::cast<const TriMesh&>(self).tris.raw();
+            return view_rows(reinterpret_cast<const std::int32_t*>(tris.data()), tris.size(), 3,
+                             self);
+          },
+          nb::sig("def faces(self) -> numpy.typing.NDArray[numpy.int32]"));
+  nb::class_<TetMesh>(module, "TetMesh", "A tetrahedral mesh.")
+      .def(
+          "__init__",
+          [](TetMesh* self, const AnyArray& points, const AnyArray& tets) {
+            new (self) TetMesh(make_tets(points, tets));
+          },
+          "points"_a, "tets"_a)
+      .def_prop_ro(
+          "points",
+          [](nb::handle self) { return points_of(self, nb::cast<const TetMesh&>(self).positions); },
+          nb::sig("def points(self) -> numpy.typing.NDArray[numpy.float64]"));
+  module.def("read_surface", &read, "path"_a);
+  module.def(
+      "write_surface",
+      [](const std::string& path, const TriMesh& surface) { write_surface(path, surface); },
+      "path"_a, "surface"_a, nb::call_guard<nb::gil_scoped_release>());
+  module.def(
+      "read_tets", [](const std::string& path) { return read_tet_mesh(path); }, "path"_a,
+      nb::call_guard<nb::gil_scoped_release>());
+}
+
+}  // namespace hexwright::python
