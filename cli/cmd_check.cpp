@@ -35,7 +35,8 @@ bool is_grid(const std::string& path) {
   if (!has_extension(path, grid_extensions())) return false;
   try {
     return read_grid(path).num_cells() > 0;
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    if (e.code() == ErrorCode::Cancelled) throw;
     return false;
   }
 }

@@ -1,6 +1,8 @@
 // Stages run alone.
 #include "hexwright/pipeline/stages.h"
 
+#include <optional>
+
 #include "hexwright/base/error.h"
 
 namespace hexwright {
@@ -14,6 +16,17 @@ SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
   return build_grid(prepared.mesh, features, options.sizing, context);
 }
 
+namespace {
+
+/// Blocks are made with weak balance at least; sheets with that or the relaxed one, which do not
+/// imply each other.
+std::optional<Issue> find_unbalanced_for(DualMode mode, const Grid& grid) {
+  auto issue = find_unbalanced(grid, Balance::Weak);
+  return issue && mode == DualMode::Sheets ? find_unbalanced(grid, Balance::Relaxed) : issue;
+}
+
+}  // namespace
+
 DualMode resolve_dual_mode(const Grid& grid, const DualStageOptions& options) {
   if (options.mode) return *options.mode;
   return find_unpaired(grid) ? DualMode::Sheets : DualMode::Blocks;
@@ -24,10 +37,9 @@ DualResult run_dual_stage(const Grid& grid, const DualStageOptions& options,
   DualOptions dual;
   dual.mode = resolve_dual_mode(grid, options);
   dual.optimize = options.optimize;
-  const Balance needed = dual.mode == DualMode::Sheets ? Balance::Relaxed : Balance::Weak;
-  if (const auto issue = find_unbalanced(grid, needed))
+  if (const auto issue = find_unbalanced_for(dual.mode, grid))
     throw Error(ErrorCode::BadGeometry,
-                issue->message + "; complete the grid first (hexwright complete)");
+                issue->message + "; run 'hexwright complete' on the grid first");
   return build_dual(grid, dual, context);
 }
 

@@ -3,21 +3,14 @@
 
 #include <array>
 
+#include "hexwright/base/cancel.h"
+
+#include "io/surface/ear_clipping.h"
+
 namespace hexwright::io {
 namespace {
 
 using Tri = std::array<VertId, 3>;
-
-/// Newell's normal: right for any simple polygon, planar or not. Points relative to the first one,
-/// so that a polygon far from the origin keeps its digits.
-Vec3 newell_normal(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon) {
-  Vec3 normal;
-  const Vec3 origin = positions[polygon[0]];
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    normal += cross(positions[polygon[i]] - origin,
-                    positions[polygon[(i + 1) % polygon.size()]] - origin);
-  return normal;
-}
 
 Vec3 tri_normal(const IdVector<VertId, Vec3>& positions, const Tri& t) {
   return cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
@@ -41,69 +34,6 @@ void split_quad(const IdVector<VertId, Vec3>& positions, std::span<const VertId>
   out.push_back(use_b ? b1 : a1);
 }
 
-/// One polygon of five or more vertices: cuts off ears until a triangle is left; a fan of what
-/// remains when there is no ear (self-crossing polygons). Only reflex vertices can lie in an ear,
-/// so that convex polygons take linear time.
-class EarClipper {
- public:
-  EarClipper(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon)
-      : positions_(positions),
-        ring_(polygon.begin(), polygon.end()),
-        normal_(newell_normal(positions, polygon)) {
-    for (std::size_t i = 0; i < ring_.size(); ++i)
-      if (!is_convex(corner(i))) reflex_.push_back(ring_[i]);
-  }
-
-  void run(std::vector<Tri>& out) {
-    std::size_t start = 0;
-    while (ring_.size() > 3) {
-      const std::size_t ear = find_ear(start);
-      if (ear == ring_.size()) break;
-      out.push_back(corner(ear));
-      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start = ear + 1;  // not the neighbour: a convex polygon is cut evenly, not into a fan
-    }
-    for (std::size_t i = 2; i < ring_.size(); ++i)
-      out.push_back({ring_[0], ring_[i - 1], ring_[i]});
-  }
-
- private:
-  Tri corner(std::size_t i) const {
-    const std::size_t n = ring_.size();
-    return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
-  }
-
-  /// Index of an ear, ring_.size() when there is none.
-  std::size_t find_ear(std::size_t start) const {
-    const std::size_t n = ring_.size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (const std::size_t i = (start + k) % n; is_ear(corner(i))) return i;
-    return n;
-  }
-
-  double side(VertId a, VertId b, VertId p) const {
-    return dot(normal_, cross(positions_[b] - positions_[a], positions_[p] - positions_[a]));
-  }
-  bool is_convex(const Tri& t) const { return side(t[0], t[1], t[2]) > 0; }
-
-  bool is_ear(const Tri& t) const {
-    if (!is_convex(t)) return false;
-    for (VertId v : reflex_) {
-      // Bridges to holes visit a place twice, under one id or two.
-      const auto& p = positions_[v];
-      if (p == positions_[t[0]] || p == positions_[t[1]] || p == positions_[t[2]]) continue;
-      if (side(t[0], t[1], v) >= 0 && side(t[1], t[2], v) >= 0 && side(t[2], t[0], v) >= 0)
-        return false;
-    }
-    return true;
-  }
-
-  const IdVector<VertId, Vec3>& positions_;
-  std::vector<VertId> ring_;
-  std::vector<VertId> reflex_;
-  Vec3 normal_;
-};
-
 void split_polygon(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon,
                    std::vector<Tri>& out) {
   if (polygon.size() == 3)
@@ -111,21 +41,71 @@ void split_polygon(const IdVector<VertId, Vec3>& positions, std::span<const Vert
   else if (polygon.size() == 4)
     split_quad(positions, polygon, out);
   else
-    EarClipper(positions, polygon).run(out);
+    clip_ears(positions, polygon, out);
+}
+
+/// Bytes of the printable character at the start of a text; 0 when there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  return length;
 }
 
 }  // namespace
+
+std::int32_t PolygonSoup::add_group(std::string_view name) {
+  const auto next = static_cast<std::int32_t>(group_names.size());
+  const auto [at, is_new] = name_to_group.try_emplace(clean_name(name), next);
+  if (is_new) group_names.push_back(at->first);
+  return at->second;
+}
+
+/// What came before the first name has none.
+void PolygonSoup::begin_group(std::string_view name) {
+  if (group.empty() && !ends.empty()) group.assign(ends.size(), add_group(""));
+  current_group = add_group(name);
+}
+
+std::string clean_name(std::string_view name) {
+  constexpr std::size_t kLongest = 200;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+  while (!name.empty() && is_blank(name.front())) name.remove_prefix(1);
+  while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
+  std::string clean;
+  for (std::size_t i = 0; i < name.size() && clean.size() < kLongest;) {
+    const std::size_t length = utf8_length(name.substr(i));
+    if (length == 0) {
+      clean += '_';
+      ++i;
+      continue;
+    }
+    clean += name.substr(i, length);
+    i += length;
+  }
+  return clean;
+}
 
 TriMesh triangulate(PolygonSoup&& soup) {
   TriMesh mesh;
   mesh.positions = std::move(soup.positions);
   auto& tris = mesh.tris.raw();
   tris.reserve(soup.ends.size());
+  const bool is_named =
+      !soup.group_names.empty() && soup.group_names != std::vector<std::string>{""};
   std::size_t begin = 0;
-  for (std::size_t end : soup.ends) {
+  CancelCheck check_cancelled;
+  for (std::size_t p = 0; p < soup.ends.size(); ++p) {
+    check_cancelled();
+    const std::size_t end = soup.ends[p];
     split_polygon(mesh.positions, std::span(soup.verts).subspan(begin, end - begin), tris);
+    if (is_named) mesh.group.resize(tris.size(), soup.group[p]);
     begin = end;
   }
+  if (is_named) mesh.group_names = std::move(soup.group_names);
   return mesh;
 }
 
