@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import base64
 import importlib
+import re
 import struct
 import zlib
 from typing import TYPE_CHECKING, Any
@@ -62,12 +63,19 @@ def to_skfem(mesh: HexMesh) -> Any:
     boundaries = {}
     for name, patch in mesh.patches.items():
         boundaries[name] = order[np.searchsorted(keys, _as_keys(np.sort(patch.quads, axis=1)))]
+    for name in {re.sub(r"\.\d+$", "", name) for name in boundaries} - set(boundaries):
+        boundaries[name] = order[np.searchsorted(keys, _as_keys(np.sort(mesh.facets(name).quads, axis=1)))]
     if boundaries:
         result = result.with_boundaries(boundaries)
     tags = np.unique(mesh.regions)
     if len(tags) > 1:
-        result = result.with_subdomains({f"region_{tag}": np.flatnonzero(mesh.regions == tag) for tag in tags})
+        result = result.with_subdomains({_region_name(mesh, tag): np.flatnonzero(mesh.regions == tag) for tag in tags})
     return result
+
+
+def _region_name(mesh: HexMesh, tag: int) -> str:
+    names = mesh.region_names
+    return names[tag] if 0 <= tag < len(names) and names[tag] else f"region_{tag}"
 
 
 def _as_keys(rows: NDArray[Any]) -> NDArray[np.bytes_]:

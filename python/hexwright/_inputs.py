@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -13,6 +14,8 @@ from ._errors import BadInput
 #: A path, a pair of arrays, a Surface, or an object with vertices and faces (trimesh) or points and faces (pyvista).
 SurfaceLike = Any
 PathLike = Union[str, "os.PathLike[str]"]
+#: Faces by name.
+Patches = Mapping[str, ArrayLike]
 
 
 def to_array(values: Any, name: str) -> NDArray[Any]:
@@ -46,15 +49,36 @@ class Surface:
     faces : array_like, shape (m, 3)
         Vertex numbers from 0, counter-clockwise seen from outside.
 
+    patches : mapping of str to array_like, optional
+        Names of parts of the surface, each with its faces: their numbers, or a truth value per face. Where two parts meet
+        is an edge that the mesh follows.
+
     Attributes
     ----------
     warnings : list of str
         What the reader of a file said about it.
     """
 
-    def __init__(self, vertices: ArrayLike, faces: ArrayLike):
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, patches: Patches | None = None):
         self._core = _core.Surface(to_array(vertices, "vertices"), _to_faces(faces))
         self.warnings: list[str] = []
+        if patches is not None:
+            self._core = self._with_patches(patches)._core
+
+    def _with_patches(self, patches: Patches) -> Surface:
+        """The same with these names; faces that have none keep the names of the file."""
+        names = list(self._core.group_names) or [""]
+        group = self._core.group.copy() if len(self._core.group) else np.zeros(len(self.faces), dtype=np.int32)
+        taken = np.zeros(len(group), dtype=bool)
+        for name, ids in patches.items():
+            chosen = _to_face_ids(ids, len(group), name)
+            if taken[chosen].any():
+                raise BadInput(f"patches: face {chosen[taken[chosen]][0]} is in '{name}' and in another patch")
+            taken[chosen] = True
+            if name not in names:
+                names.append(name)
+            group[chosen] = names.index(name)
+        return Surface._wrap(_core.Surface(self.vertices, self.faces, group, names), self.warnings)
 
     @classmethod
     def _wrap(cls, core: _core.Surface, warnings: list[str]) -> Surface:
@@ -73,12 +97,35 @@ class Surface:
         """Vertex numbers, shape (m, 3); a read-only view."""
         return self._core.faces
 
+    @property
+    def patches(self) -> dict[str, NDArray[np.int64]]:
+        """Numbers of the faces under each name; empty when none is named."""
+        parts = {name: np.flatnonzero(self._core.group == k) for k, name in enumerate(self._core.group_names)}
+        return {name: ids for name, ids in parts.items() if name and len(ids)}
+
     def save(self, path: PathLike) -> None:
         """Writes OBJ, OFF, STL or PLY by extension. The file appears whole or not at all."""
         _core.write_surface(os.fspath(path), self._core)
 
     def __repr__(self) -> str:
         return f"<hexwright.Surface: {len(self.faces)} triangles, {len(self.vertices)} vertices>"
+
+
+def _to_face_ids(ids: Any, count: int, name: str) -> NDArray[np.int64]:
+    where = f"patches: '{name}'"
+    if not isinstance(name, str) or not name.strip():
+        raise BadInput(f"patches: {name!r} is no name")
+    array = np.asarray(ids)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise BadInput(f"{where} has {array.size} truth values for {count} faces")
+        return np.flatnonzero(array)
+    if array.ndim != 1 or array.dtype.kind not in "iu" and array.size:
+        raise BadInput(f"{where} must be a list of face numbers or a truth value per face")
+    outside = array[(array < 0) | (array >= count)]
+    if outside.size:
+        raise BadInput(f"{where} holds {outside[0]}, which is none of the {count} faces (counted from 0)")
+    return array.astype(np.int64)
 
 
 def _to_faces(faces: Any) -> NDArray[Any]:
@@ -109,8 +156,13 @@ def read_surface(path: PathLike) -> Surface:
     return Surface._wrap(core, warnings)
 
 
-def as_surface(surface: SurfaceLike, faces: ArrayLike | None = None) -> Surface:
-    """The surface that an argument stands for."""
+def as_surface(surface: SurfaceLike, faces: ArrayLike | None = None, patches: Patches | None = None) -> Surface:
+    """The surface that arguments stand for."""
+    given = _to_surface(surface, faces)
+    return given if patches is None else given._with_patches(patches)
+
+
+def _to_surface(surface: SurfaceLike, faces: ArrayLike | None) -> Surface:
     if faces is not None:
         return Surface(surface, faces)
     if isinstance(surface, Surface):

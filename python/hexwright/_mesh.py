@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import html
 import os
+import re
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -93,18 +94,37 @@ class HexMesh:
     def patches(self) -> dict[str, Facets]:
         """The boundary by patches of the surface: smooth parts between its sharp edges, by name."""
         quads, owner, side, start = self._core.facets()
-        names = _fill_names([], len(start) - 1, "patch")
+        names = _fill_names(self._core.patch_names, len(start) - 1, "patch")
         found = {}
         for name, first, last in zip(names, start, start[1:]):
             if last > first:
                 found[name] = Facets(quads[first:last], owner[first:last], side[first:last])
         return found
 
+    def facets(self, name: str) -> Facets:
+        """The quads of all patches of a name: of "wall" those of "wall" or of "wall.1", "wall.2" and so on, which sharp
+        edges part. A copy.
+
+        Raises
+        ------
+        BadInput
+            When there is none; names those there are.
+        """
+        parts = [f for own, f in self.patches.items() if own == name or re.fullmatch(re.escape(name) + r"\.\d+", own)]
+        if not parts:
+            raise BadInput(f"name: no patch is called '{name}'; there are {', '.join(self.patches) or 'none'}")
+        return Facets(*(np.concatenate(arrays) for arrays in zip(*parts)))
+
+    @property
+    def region_names(self) -> list[str]:
+        """Names of regions by tag; empty where there are none."""
+        return self._core.region_names
+
     @cached_property
     def curves(self) -> dict[str, NDArray[np.int32]]:
         """Mesh edges along the surface's sharp edges, shape (n, 2) for each, by name."""
         edges, start = self._core.curves()
-        names = _fill_names([], len(start) - 1, "curve")
+        names = _fill_names(self._core.curve_names, len(start) - 1, "curve")
         return {name: edges[a:b] for name, a, b in zip(names, start, start[1:]) if b > a}
 
     def quality(self, measure: str = "scaled_jacobian") -> NDArray[np.float64]:
@@ -208,8 +228,9 @@ class HexMesh:
 
 
 def _fill_names(names: list[str], count: int, kind: str) -> list[str]:
-    """A name for each: its own, or its number."""
-    return [names[k] if k < len(names) and names[k] else f"{kind}_{k}" for k in range(count)]
+    """A name for each: its own, or its number; numbered too where files give one name twice."""
+    filled = [names[k] if k < len(names) and names[k] else f"{kind}_{k}" for k in range(count)]
+    return [f"{name}.{k}" if filled.count(name) > 1 else name for k, name in enumerate(filled)]
 
 
 def read(path: PathLike) -> HexMesh:

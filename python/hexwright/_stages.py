@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import BadInput, HexwrightWarning, InvalidMesh
 from ._grid import Grid, as_grid
-from ._inputs import SurfaceLike, as_edges, as_surface, as_tets
+from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets
 from ._mesh import HexMesh, as_mesh
 from ._options import Progress, to_call
 
@@ -74,6 +74,7 @@ def mesh(
     surface: SurfaceLike,
     faces: ArrayLike | None = None,
     *,
+    patches: Patches | None = None,
     features: ArrayLike | None = None,
     strict: bool = False,
     threads: int | None = None,
@@ -89,6 +90,9 @@ def mesh(
         as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once.
     faces : array_like of shape (m, 3), optional
         Vertex numbers from 0, counter-clockwise seen from outside.
+    patches : mapping of str to array_like, optional
+        Names of parts of the surface, each with its faces: their numbers, or a truth value per face. The mesh follows the
+        borders between them, and its ``patches`` have these names. Names in files (STL, OBJ, PLY) are kept.
     features : array_like of shape (e, 2), optional
         Pairs of the surface's vertices: edges to follow whatever their angle.
     strict : bool
@@ -123,7 +127,7 @@ def mesh(
     >>> m.valid, len(m.patches), len(m.curves), len(m.corners)
     (True, 6, 12, 8)
     """
-    given = as_surface(surface, faces)
+    given = as_surface(surface, faces, patches)
     call = to_call("mesh", options, progress, threads)
     core, grid, report = _core.mesh(given._core, as_edges(features), call)
     result = HexMesh._wrap(core, json.loads(report))
@@ -137,6 +141,7 @@ def grid(
     surface: SurfaceLike,
     faces: ArrayLike | None = None,
     *,
+    patches: Patches | None = None,
     features: ArrayLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -151,7 +156,7 @@ def grid(
     Grid
         With ``report``.
     """
-    given = as_surface(surface, faces)
+    given = as_surface(surface, faces, patches)
     core, report, warnings = _core.grid(given._core, as_edges(features), to_call("grid", options, progress, threads))
     result = Grid._wrap(core, json.loads(report))
     result.warnings = given.warnings + warnings
@@ -210,6 +215,7 @@ def fit(
     mesh: HexMesh | Any,
     surface: SurfaceLike,
     *,
+    patches: Patches | None = None,
     features: ArrayLike | None = None,
     strict: bool = False,
     threads: int | None = None,
@@ -231,7 +237,7 @@ def fit(
     HexMesh
         ``report`` has ``fit`` and ``verdict``.
     """
-    given = as_surface(surface)
+    given = as_surface(surface, patches=patches)
     call = to_call("fit", options, progress, threads)
     core, report, verdict, warnings = _core.fit(as_mesh(mesh)._core, given._core, as_edges(features), call)
     result = HexMesh._wrap(core, {"fit": json.loads(report), "verdict": json.loads(verdict)})

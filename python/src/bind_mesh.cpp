@@ -177,6 +177,9 @@ void bind_mesh(nb::module_& module) {
       },
       "points"_a, "hexes"_a, "regions"_a.none() = nb::none());
   add_views(type);
+  type.def_prop_ro("patch_names", [](const HexMesh& mesh) { return mesh.labels.patch_names.raw(); })
+      .def_prop_ro("curve_names", [](const HexMesh& mesh) { return mesh.labels.curve_names.raw(); })
+      .def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
   type.def("quality", &quality_of, "name"_a)
       .def("save", &save, "path"_a, "fields"_a)
       .def("facets", &facets_of)

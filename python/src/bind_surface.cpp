@@ -1,5 +1,6 @@
 // Surfaces and tet meshes.
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -26,11 +27,25 @@ std::vector<std::array<VertId, N>> to_elements(const AnyArray& array, std::size_
   return elements;
 }
 
-TriMesh make_surface(const AnyArray& points, const AnyArray& faces) {
+/// The group of each face, and the groups' names.
+struct Groups {
+  std::optional<AnyArray> group;
+  std::vector<std::string> names;
+};
+
+TriMesh make_surface(const AnyArray& points, const AnyArray& faces, const Groups& groups) {
   TriMesh surface;
   surface.positions = IdVector<VertId, Vec3>(to_points(points, "vertices"));
   surface.tris =
       IdVector<TriId, std::array<VertId, 3>>(to_elements<3>(faces, surface.num_verts(), "faces"));
+  if (groups.group) {
+    const auto limit = static_cast<std::int64_t>(groups.names.size());
+    surface.group = IdVector<TriId, std::int32_t>(
+        to_indices(*groups.group, 0, {-1, limit, "the groups"}, "group"));
+    surface.group_names = groups.names;
+  }
+  if (const auto issue = surface.find_problem())
+    throw Error(ErrorCode::BadArgument, issue->message, "surface");
   return surface;
 }
 
@@ -63,10 +78,11 @@ void bind_surface(nb::module_& module) {
   nb::class_<TriMesh>(module, "Surface", "A triangle surface.")
       .def(
           "__init__",
-          [](TriMesh* self, const AnyArray& points, const AnyArray& faces) {
-            new (self) TriMesh(make_surface(points, faces));
+          [](TriMesh* self, const AnyArray& points, const AnyArray& faces,
+             const std::optional<AnyArray>& group, const std::vector<std::string>& names) {
+            new (self) TriMesh(make_surface(points, faces, {group, names}));
           },
-          "vertices"_a, "faces"_a)
+          "vertices"_a, "faces"_a, "group"_a.none() = nb::none(), "group_names"_a = nb::list())
       .def_prop_ro(
           "vertices",
           [](nb::handle self) { return points_of(self, nb::cast<const TriMesh&>(self).positions); },
@@ -78,7 +94,15 @@ void bind_surface(nb::module_& module) {
             return view_rows(reinterpret_cast<const std::int32_t*>(tris.data()), tris.size(), 3,
                              self);
           },
-          nb::sig("def faces(self) -> numpy.typing.NDArray[numpy.int32]"));
+          nb::sig("def faces(self) -> numpy.typing.NDArray[numpy.int32]"))
+      .def_prop_ro(
+          "group",
+          [](nb::handle self) {
+            const auto& group = nb::cast<const TriMesh&>(self).group.raw();
+            return view_values(group.data(), group.size(), self);
+          },
+          nb::sig("def group(self) -> numpy.typing.NDArray[numpy.int32]"))
+      .def_prop_ro("group_names", [](const TriMesh& surface) { return surface.group_names; });
   nb::class_<TetMesh>(module, "TetMesh", "A tetrahedral mesh.")
       .def(
           "__init__",

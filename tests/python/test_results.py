@@ -207,3 +207,43 @@ def test_polycubes_of_arrays_with_a_size_by_function():
         hw.polycube((bent, tets), (points, tets), max_edge=-1.0)
     with pytest.raises(hw.BadGeometry):
         hw.polycube((bent, tets), (points, tets[:-1]))
+
+
+def test_names_of_arrays_reach_the_mesh_and_its_files(cube, tmp_path):
+    vertices, faces = cube
+    z = vertices[faces].mean(axis=1)[:, 2]
+    mesh = hw.mesh(vertices, faces, patches={"inlet": np.flatnonzero(z == 0), "outlet": z == 1}, **COARSE)
+    assert np.abs(mesh.points[mesh.patches["inlet"].quads][..., 2]).max() < 1e-9
+    assert np.abs(mesh.points[mesh.patches["outlet"].quads][..., 2] - 1).max() < 1e-9
+    assert len(mesh.patches) == 6
+    mesh.save(tmp_path / "a.vtu")
+    assert {"inlet", "outlet"} <= set(hw.read(tmp_path / "a.vtu").patches)
+
+
+def test_parts_of_one_name_are_found_together(cube):
+    vertices, faces = cube
+    z = vertices[faces].mean(axis=1)[:, 2]
+    mesh = hw.mesh(vertices, faces, patches={"wall": z < 1}, **COARSE)
+    assert {"wall.1", "wall.5"} <= set(mesh.patches)
+    whole = mesh.facets("wall")
+    assert len(whole.quads) == sum(len(f.quads) for name, f in mesh.patches.items() if name.startswith("wall"))
+    assert {"wall", "wall.1"} <= set(mesh.to_skfem().boundaries)
+    with pytest.raises(hw.BadInput, match="there are .*wall.1"):
+        mesh.facets("ceiling")
+
+
+def test_surfaces_keep_names(cube, tmp_path):
+    surface = hw.Surface(*cube, patches={"base": [0, 1]})
+    surface.save(tmp_path / "a.obj")
+    again = hw.read_surface(tmp_path / "a.obj")
+    assert again.patches["base"].tolist() == [0, 1]
+    assert set(hw.Surface(*cube).patches) == set()
+
+
+@pytest.mark.parametrize("patches, words", [
+    ({"a": [12]}, "'a' holds 12, which is none of the 12 faces"), ({"a": [-1]}, "holds -1"),
+    ({"a": [0], "b": [0, 1]}, "face 0 is in 'b' and in another"), ({"": [0]}, "is no name"), ({7: [0]}, "7 is no name"),
+    ({"a": [True]}, "1 truth values for 12 faces"), ({"a": [0.5]}, "list of face numbers")])
+def test_wrong_patches_are_refused(cube, patches, words):
+    with pytest.raises(hw.BadInput, match=words):
+        hw.mesh(*cube, patches=patches)
