@@ -128,6 +128,37 @@ Json describe_fit(const FitReport& f) {
   return fit;
 }
 
+Json describe_folded(const std::vector<FoldedHex>& folded) {
+  Json json = Json::array();
+  for (const FoldedHex& f : folded)
+    json.push_back({{"hex", f.hex.value()},
+                    {"center", {f.center.x, f.center.y, f.center.z}},
+                    {"scaled_jacobian", f.scaled_jacobian},
+                    {"object_tet", f.tet.value() + 1},
+                    {"map_is_folded_there", f.is_map_folded}});
+  return json;
+}
+
+Json describe_polycube(const PolycubeReport& r) {
+  return {{"tets", r.num_tets},
+          {"nonpositive_tets_object", r.num_nonpositive_object},
+          {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
+          {"nonpositive_tets_after_repair", r.num_nonpositive_left},
+          {"charts", r.num_charts},
+          {"unaligned_facets", r.num_unaligned_facets},
+          {"max_plane_deviation", r.max_plane_deviation},
+          {"spacing", r.spacing},
+          {"roots", r.num_roots},
+          {"sampled_cells", r.num_sampled_cells},
+          {"cells", r.num_cells},
+          {"bridged_vertices", r.num_bridged},
+          {"inverted_after_mapping", r.num_inverted_mapped},
+          {"rounds", r.num_rounds},
+          {"max_distance", r.max_distance},
+          {"folded_hexes", describe_folded(r.folded)},
+          {"warnings", r.warnings}};
+}
+
 Json describe_stages(const MeshResult& r) {
   Json stages = Json::array();
   for (const StageRecord& s : r.stages)
@@ -195,5 +226,8 @@ std::string complete_to_json(const CompleteReport& complete) {
 }
 std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
 std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+std::string polycube_to_json(const PolycubeReport& polycube) {
+  return to_text(describe_polycube(polycube));
+}
 
 }  // namespace hexwright
