@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kPull = 0.002;
 constexpr double kNegligible = 1e-4;  // weight beside the largest from which a value matters
-constexpr int kMaxIterations = 40;    // of conjugate gradients ...
-constexpr double kResidual = 0.02;    // ... or until the residual fell to this share
+constexpr int kMaxIterations = 30;    // of conjugate gradients ...
+constexpr double kResidual = 0.05;    // ... or until the residual fell to this share
 
 double corner_value(const LocalCorner& c, std::span<const Vec3> p) {
   const Vec3 a = p[c[1]] - p[c[0]], b = p[c[2]] - p[c[0]], d = p[c[3]] - p[c[0]];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
@@ -19,12 +20,13 @@ struct Stage {
   double slack, quad_sag, curve_sag;
   double goal;  // at most
   double reach;
+  bool is_patient;
 };
 constexpr double kReference = 0.005;
 // A stage that keeps to the surface exactly before these gains next to nothing, at half the time.
-constexpr Stage kStages[] = {{0.001, 0.0035, 0.0008, 1, 0.35},
-                             {0.002, 0.0037, 0.0012, 1, 0.35},
-                             {0.003, 0.0040, 0.0020, 0.41, 0.6}};
+constexpr Stage kStages[] = {{0.001, 0.0035, 0.0008, 1, 0.35, false},
+                             {0.002, 0.0037, 0.0012, 1, 0.35, false},
+                             {0.003, 0.0040, 0.0020, 0.41, 0.6, true}};
 constexpr std::size_t kNumStages = std::size(kStages), kNumLastStages = 2;
 constexpr double kCornerSlack = 0.00044;  // share of the diagonal
 
@@ -38,8 +40,9 @@ class JointLifter {
       : state_(state),
         target_(target),
         quality_(compute_scaled_jacobians(state.mesh)),
-        hex_stamp_(state.mesh.num_hexes(), 0),
-        vert_stamp_(state.num_verts(), 0),
+        batch_of_(state.mesh.num_hexes(), 0),
+        hex_mark_(state.mesh.num_hexes(), 0),
+        vert_mark_(state.num_verts(), 0),
         is_tried_(state.mesh.num_hexes(), 0) {}
 
   void run(const JointStage& stage, const Context& context) {
@@ -72,23 +75,27 @@ class JointLifter {
   std::vector<JointRegion> take_batch(std::vector<HexId>& queue, double goal) {
     std::vector<JointRegion> batch;
     std::vector<HexId> rest;
-    ++batch_stamp_;
+    ++num_batches_;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       if (batch.size() == kBatch) {
         rest.insert(rest.end(), queue.begin() + static_cast<std::ptrdiff_t>(i), queue.end());
         break;
       }
       if (!is_poor(queue[i], goal)) continue;
+      const auto is_taken = [&](HexId h) { return batch_of_[h.index()] == num_batches_; };
+      if (is_taken(queue[i])) {
+        rest.push_back(queue[i]);
+        continue;
+      }
       const std::vector<HexId> seeds = find_seeds(queue[i], goal);
       const std::vector<VertId> movable = find_movable(seeds);
       const std::vector<HexId> hexes = hexes_around(movable);
       if (movable.empty()) continue;
-      if (std::any_of(hexes.begin(), hexes.end(),
-                      [&](HexId h) { return hex_stamp_[h.index()] == batch_stamp_; })) {
+      if (std::any_of(hexes.begin(), hexes.end(), is_taken)) {
         rest.push_back(queue[i]);
         continue;
       }
-      for (HexId h : hexes) hex_stamp_[h.index()] = batch_stamp_;
+      for (HexId h : hexes) batch_of_[h.index()] = num_batches_;
       for (HexId h : seeds) is_tried_[h.index()] = 1;
       batch.emplace_back(state_, movable, hexes);
     }
@@ -116,9 +123,7 @@ class JointLifter {
     ++vert_round_;
     std::vector<VertId> movable;
     const auto add = [&](VertId v) {
-      if (vert_stamp_[v.index()] == vert_round_) return;
-      vert_stamp_[v.index()] = vert_round_;
-      movable.push_back(v);
+      if (std::exchange(vert_mark_[v.index()], vert_round_) != vert_round_) movable.push_back(v);
     };
     for (HexId seed : seeds)
       for (VertId v : state_.mesh.hexes[seed]) add(v);
@@ -130,12 +135,13 @@ class JointLifter {
     return movable;
   }
 
-  std::vector<HexId> hexes_around(const std::vector<VertId>& verts) const {
+  std::vector<HexId> hexes_around(const std::vector<VertId>& verts) {
+    ++hex_round_;
     std::vector<HexId> hexes;
     for (VertId v : verts)
-      for (const HexCorner& corner : state_.vert_to_hex[v]) hexes.push_back(corner.hex);
-    std::sort(hexes.begin(), hexes.end());
-    hexes.erase(std::unique(hexes.begin(), hexes.end()), hexes.end());
+      for (const HexCorner& corner : state_.vert_to_hex[v])
+        if (std::exchange(hex_mark_[corner.hex.index()], hex_round_) != hex_round_)
+          hexes.push_back(corner.hex);
     return hexes;
   }
 
@@ -162,8 +168,9 @@ class JointLifter {
   FitState& state_;
   const FitTarget& target_;
   IdVector<HexId, double> quality_;
-  std::vector<int> hex_stamp_, vert_stamp_;
-  int batch_stamp_ = 0, vert_round_ = 0;
+  std::vector<int> batch_of_;              // per hex: the last batch with a region that holds it
+  std::vector<int> hex_mark_, vert_mark_;  // per element: the last round of a search that met it
+  int num_batches_ = 0, hex_round_ = 0, vert_round_ = 0;
   std::vector<char> is_tried_;  // since something around it moved
 };
 
@@ -174,7 +181,8 @@ JointStage scale_stage(const Stage& stage, double diagonal, const JointLiftOptio
           stage.curve_sag * diagonal,
           kCornerSlack * diagonal,
           std::min(stage.goal, options.goal),
-          stage.reach};
+          stage.reach,
+          stage.is_patient};
 }
 
 }  // namespace

@@ -192,8 +192,11 @@ bool JointPatch::solve(const JointStage& stage) {
   const double least = energy.evaluate(positions_, freedom_, kSharpness[0]).least;
   const double enough = stage.goal + kBeyondGoal;
   std::vector<Iterate> found = {{least, start_}};
-  for (double sharpness : kSharpness)
-    if (descend(energy, sharpness, enough, found).least >= enough) break;
+  for (double sharpness : kSharpness) {
+    const JointValue value = descend(energy, sharpness, enough, found);
+    // What the bluntest energy does not raise is mostly bounded by more than its neighbours.
+    if (value.least >= enough || (!stage.is_patient && value.least < least + kLeastGain)) break;
+  }
 
   JointGuard guard(state_, target_, region_);
   for (; found.size() > 1 && found.back().least >= least + kLeastGain; found.pop_back()) {

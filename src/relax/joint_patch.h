@@ -19,6 +19,7 @@ struct JointStage {
   double corner_slack = 0;  ///< of corners at most
   double goal = 0;          ///< least scaled Jacobian to be content with
   double reach = 0;         ///< how far curve vertices may slide, in h
+  bool is_patient = false;  ///< goes on where the bluntest energy raised nothing
 };
 
 /// Where a movable vertex is and what it is attached to there.
