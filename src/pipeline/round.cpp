@@ -117,7 +117,8 @@ Round lift_round(const RoundInput& input, Round round) {
   });
   round.fit.memory.reset();
   for (const Demand& demand : demands())
-    if (demand.is_met(input, round) && !demand.is_met(input, lifted)) return round;
+    if (demand.sentence && demand.is_met(input, round) && !demand.is_met(input, lifted))
+      return round;
   return lifted;
 }
 
