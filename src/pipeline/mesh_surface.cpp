@@ -24,6 +24,7 @@ MeshOptions resolve_options(MeshOptions options, double diagonal) {
   if (options.fit.carve.side != Side::Inside) options.judge.distance.quads = JudgedQuads::Labeled;
   const double threshold = options.refine_threshold * options.sizing.tolerance;
   options.judge.distance.hot_threshold = threshold;
+  options.fit.tolerance = options.sizing.tolerance;
   options.even.max_cells = std::min(options.even.max_cells, options.max_hexes);
   if (options.sizing.sizing != Sizing::Deviation) options.even.transition_cost = 0;  // the paper's
   options.judge.distance.spacing = std::min(options.judge.distance.spacing, 1.5 * threshold);
@@ -219,7 +220,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   // Grid, hexes, fit; again where the fit missed.
   const RoundInput input{tree, options, expected, context, &features};
   CompleteResult completed = complete_within_budget(input, features, result);
-  Round best = refine_where_missed(input, std::move(completed), result);
+  Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   map_to_world(frame, result);

@@ -86,8 +86,9 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   count(round.stages.back(), "hexes", dual.mesh.num_hexes());
   count(round.stages.back(), "vertices", dual.mesh.num_verts());
 
-  round.fit = run_stage(round.stages, "fit", input.context,
-                        [&] { return fit(dual.mesh, input.tree, options.fit, input.context); });
+  round.fit = run_stage(round.stages, "fit", input.context, [&] {
+    return fit_unlifted(dual.mesh, input.tree, options.fit, input.context);
+  });
   count(round.stages.back(), "hexes", round.fit.mesh.num_hexes());
   count(round.stages.back(), "carved", round.fit.report.num_hexes_carved);
   count(round.stages.back(), "padded", round.fit.report.num_hexes_padded);
@@ -102,6 +103,23 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   find_refinable_features(input, round);
   round.record = make_record(round, clock.seconds());
   return round;
+}
+
+Round lift_round(const RoundInput& input, Round round) {
+  if (!round.fit.memory) return round;
+  const MeshOptions& options = input.options;
+  Round lifted = round;
+  lifted.fit = run_stage(lifted.stages, "lift", input.context, [&] {
+    return lift_fit(*round.fit.memory, input.tree, options.fit, input.context);
+  });
+  lifted.verdict = run_stage(lifted.stages, "judge", input.context, [&] {
+    return judge(lifted.fit.mesh, input.tree, options.judge, input.context);
+  });
+  round.fit.memory.reset();
+  for (const Demand& demand : demands())
+    if (demand.sentence && demand.is_met(input, round) && !demand.is_met(input, lifted))
+      return round;
+  return lifted;
 }
 
 }  // namespace hexwright

@@ -37,8 +37,13 @@ struct Round {
   RoundRecord record;
 };
 
-/// Runs the stages on an already completed grid.
+/// Runs the stages on an already completed grid, without the lift.
 Round run_round(const RoundInput& input, CompleteResult completed);
+
+/// Lets the boundary of a round's mesh leave the surface within the tolerance where that raises its
+/// least scaled Jacobian; the round as it was when that misses a demand that is met now and that
+/// users are told of.
+Round lift_round(const RoundInput& input, Round round);
 
 /// The mean two-way distance the loop is content with, a share of the diagonal; 0 = any.
 inline double mean_goal(const MeshOptions& options) {

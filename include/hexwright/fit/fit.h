@@ -1,6 +1,7 @@
 // Fits a hex mesh to a surface with sharp features; no element is ever inverted.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct FitOptions {
   double snap_quality =
       0.2;  ///< boundary vertices move to their targets while the scaled Jacobian stays above
   PatchVerts patch_verts = PatchVerts::Balanced;
+  /// Two-way distance that the mesh may have, a share of the surface's diagonal: around hexes below
+  /// lift_goal, boundary vertices leave the surface within it, as far as that raises the least
+  /// scaled Jacobian.
+  double tolerance = 0.005;
+  double lift_goal = 0.5;  ///< 0 = boundary vertices stay where they belong
 };
 
 /// What became of one feature curve.
@@ -64,14 +70,27 @@ struct FitReport {
   std::vector<std::pair<std::string, double>> processor_seconds;  ///< per pass, of all threads
 };
 
+struct FitMemory;  // of the fit's last passes
+
 struct FitResult {
   HexMesh mesh;  ///< labels carry patches, curves and corners; empty when nothing was kept
   FitReport report;
+  /// What lift_fit() goes on from; empty when there is nothing to lift.
+  std::shared_ptr<const FitMemory> memory;
 };
 
 /// Requires: every corner of every hex of `background` has a positive Jacobian.
 /// Guarantees: so has the result. Errors: BadArgument when the requirement fails (names the hex).
 FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
               const Context& context);
+
+/// The same in two steps, for callers that look at many fits and keep one: boundary vertices stay
+/// where they belong ...
+FitResult fit_unlifted(const HexMesh& background, const SurfaceTree& surface,
+                       const FitOptions& options, const Context& context);
+/// ... and leave it within the tolerance where that raises a least scaled Jacobian below the goal.
+/// Requires a memory, of a fit of the same surface with the same options.
+FitResult lift_fit(const FitMemory& memory, const SurfaceTree& surface, const FitOptions& options,
+                   const Context& context);
 
 }  // namespace hexwright
