@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
@@ -45,18 +44,12 @@ bool is_grid(const std::string& path) {
 /// prepared.
 Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
   const Context context = program.console.start(cmd.reference);
-  JudgeOptions options;
-  if (cmd.reference.empty()) {
-    options.features = cmd.features;
-    return judge(mesh, options, context);
-  }
+  if (cmd.reference.empty()) return judge(mesh, {}, context);
   const TriMesh surface = load_surface(cmd.reference, program);
-  FeatureOptions features = cmd.features;
-  load_features(cmd.feature_file, surface, features);
-  PreparedSurface prepared =
-      naming_file(cmd.reference, [&] { return prepare_surface(surface, context); });
-  options.features = features_for_sizing(features, bounding_box(prepared.mesh).diagonal());
-  return judge(mesh, SurfaceTree(std::move(prepared.mesh)), options, context);
+  TargetOptions target;
+  target.features = cmd.features;
+  load_features(cmd.feature_file, surface, target.features);
+  return naming_file(cmd.reference, [&] { return judge(mesh, surface, target, {}, context); });
 }
 
 void check_mesh(const CheckCommand& cmd, Program& program) {

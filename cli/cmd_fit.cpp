@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
@@ -20,6 +19,7 @@ namespace {
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
   bool no_carve = false;
+  TargetOptions target;
   FitOptions options;
 };
 
@@ -30,15 +30,17 @@ void run(const FitCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
-  const SurfaceTree tree = naming_file(cmd.surface, [&] {
-    PreparedSurface prepared = prepare_surface(surface, context);
-    return SurfaceTree(std::move(prepared.mesh));
-  });
+  TargetOptions wishes = cmd.target;
+  load_features(cmd.features, surface, wishes.features);
+  const Target target =
+      naming_file(cmd.surface, [&] { return make_target(surface, wishes, context); });
   FitOptions options = cmd.options;
   options.do_carve = !cmd.no_carve;
-  load_features(cmd.features, surface, options.features);
-  const FitResult result =
-      naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
+  const FitResult result = naming_file(cmd.hexes, [&] {
+    FitResult fitted = fit(to_unit(background, target.frame), target, options, context);
+    fitted.to_world(target.frame);
+    return fitted;
+  });
   if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
   if (result.mesh.num_hexes() == 0) {
     program.console.fail(cmd.hexes +
@@ -49,9 +51,10 @@ void run(const FitCommand& cmd, Program& program) {
   }
   write_mesh_with_quality(cmd.output, result.mesh);
   if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
-  JudgeOptions judge_options;
-  judge_options.features = features_for_sizing(options.features, tree.box().diagonal());
-  const Verdict verdict = judge(result.mesh, tree, judge_options, context);
+  JudgeOptions judged;
+  if (options.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
+  Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
+  verdict.to_world(target.frame);
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
                                     background.num_hexes()));
   program.console.print_block(figures_to_text(verdict));
@@ -70,6 +73,7 @@ void add_fit_command(CLI::App& app, Program& program) {
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
   sub->add_flag("--no-carve", cmd->no_carve, "The mesh already stands for the object: only fit it");
   add_fit_options(*sub, cmd->options);
+  add_feature_options(*sub, cmd->target.features);
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

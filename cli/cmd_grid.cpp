@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
+#include "hexwright/pipeline/plan.h"
 #include "hexwright/pipeline/report.h"
 
 #include "commands.h"
@@ -28,14 +28,14 @@ void run(const GridCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
+  options.target.placement = Placement::AsGiven;  // grid files have no axes of their own
   if (cmd.no_loop) use_single_pass(options);
-  load_features(cmd.features, surface, options.fit.features);
+  load_features(cmd.features, surface, options.target.features);
   const SizingResult result = naming_file(cmd.input, [&] {
-    const PreparedSurface prepared = prepare_surface(surface, context);
-    const double diagonal = bounding_box(prepared.mesh).diagonal();
-    const FeatureGraph features =
-        extract_features(prepared.mesh, features_for_sizing(options.fit.features, diagonal));
-    return build_grid(prepared.mesh, features, options.sizing, context);
+    const Target target = make_target(surface, plan_target(options), context);
+    SizingResult sizing = build_grid(target, plan(options, target).sizing, context);
+    sizing.to_world(target.frame);
+    return sizing;
   });
   write_grid(cmd.output, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, sizing_to_json(result));
@@ -52,7 +52,7 @@ void add_grid_command(CLI::App& app, Program& program) {
   sub->add_option("-o,--output", cmd->output, "Grid: .cells, .htg, .vtu or .mesh")->required();
   add_sizing_options(*sub, cmd->options.sizing);
   sub->add_flag("--no-loop", cmd->no_loop, "The stricter sizing of a single pass");
-  add_feature_options(*sub, cmd->options.fit.features);
+  add_feature_options(*sub, cmd->options.target.features);
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write counts as JSON");
   add_console_options(*sub, program);

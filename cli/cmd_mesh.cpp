@@ -46,8 +46,8 @@ void run(const MeshCommand& cmd, Program& program) {
   MeshOptions options = cmd.options;
   if (cmd.no_loop) use_single_pass(options);
   // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
-  load_features(cmd.features, surface, options.fit.features);
+  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  load_features(cmd.features, surface, options.target.features);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
@@ -78,7 +78,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->get_option("--max-level")->each([cmd](const std::string&) {
     cmd->options.loop_extra_levels = 0;
   });
-  add_placement_option(*sub, cmd->options);
+  add_placement_option(*sub, cmd->options.target);
   sub->add_flag("--no-loop", cmd->no_loop,
                 "A single pass with a stricter a-priori sizing, instead of refining where the fit "
                 "missed");
@@ -95,6 +95,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       ->capture_default_str();
   add_complete_options(*sub, cmd->options.complete);
   add_fit_options(*sub, cmd->options.fit);
+  add_feature_options(*sub, cmd->options.target.features);
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

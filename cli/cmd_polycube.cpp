@@ -11,7 +11,6 @@
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/polycube/polycube.h"
-#include "hexwright/quality/judge.h"
 #include "hexwright/quality/verdict_json.h"
 
 #include "commands.h"
@@ -104,8 +103,6 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
   };
 }
 
-/// The reference of the judgement is the object's own boundary, whose edges between charts are
-/// labelled by the map; creases by angle are switched off by an angle that no edge reaches.
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
   require_extension(cmd.output, hex_mesh_extensions());
@@ -116,9 +113,7 @@ void run(const PolycubeCommand& cmd, Program& program) {
   if (cmd.ignores_distance) options.max_surface_error = 0;
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
-  JudgeOptions judge_options;
-  judge_options.features.crease_angle = 4;  // the map's own curves count, not the surface's creases
-  const Verdict verdict = judge(result.mesh, SurfaceTree(result.surface), judge_options, context);
+  const Verdict& verdict = result.verdict;
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh);

@@ -118,7 +118,7 @@ void add_complete_options(CLI::App& cmd, CompleteOptions& options) {
              "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak");
 }
 
-void add_placement_option(CLI::App& cmd, MeshOptions& options) {
+void add_placement_option(CLI::App& cmd, TargetOptions& options) {
   add_choice(cmd, "--placement", options.placement,
              {{"faces", Placement::Faces}, {"as-given", Placement::AsGiven}},
              "The lattice along the part's faces, however they are turned (inside only), or along "
@@ -155,7 +155,6 @@ void add_fit_options(CLI::App& cmd, FitOptions& options) {
              {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}},
              "Vertices of curved patches: beside the surface, so that quads err to both sides of "
              "it, or on it");
-  add_feature_options(cmd, options.features);
 }
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions) {

@@ -26,7 +26,7 @@ void add_sizing_options(CLI::App& cmd, SizingOptions& options);
 void add_complete_options(CLI::App& cmd, CompleteOptions& options);
 
 /// --placement.
-void add_placement_option(CLI::App& cmd, MeshOptions& options);
+void add_placement_option(CLI::App& cmd, TargetOptions& options);
 
 /// --feature-angle.
 void add_feature_options(CLI::App& cmd, FeatureOptions& options);
@@ -37,7 +37,7 @@ void add_feature_file_option(CLI::App& cmd, std::string& file);
 /// Adds the creases of a feature file to the options; an empty name adds none.
 void load_features(const std::string& file, const TriMesh& surface, FeatureOptions& options);
 
-/// --side, --padding, --feature-angle.
+/// --side, --padding, --vertices.
 void add_fit_options(CLI::App& cmd, FitOptions& options);
 
 /// Accepts whole numbers from 1 up. CLI11's own checks compare as doubles and let counts that do
