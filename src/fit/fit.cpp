@@ -11,10 +11,12 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/assert.h"
+#include "hexwright/geometry/surface_names.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/carve/keep_side.h"
 #include "fit/curves/judge_curves.h"
+#include "fit/curves/name_labels.h"
 #include "fit/pass_clock.h"
 #include "fit/sheets/choose.h"
 #include "fit/sheets/failed.h"
@@ -328,11 +330,21 @@ class Fitter {
     report_.num_hexes_padded = state.mesh.num_hexes();
     report_.misses = find_misses(state);
     state.mesh.labels = make_labels(state, result.boundary, surface_, result.patches);
+    name_labels(surface_, result.patches, features_, state.mesh);
+    name_body(state);
     if (state.side ==
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);
     remove_unused_verts(state.mesh);
     return {std::move(state.mesh), std::move(report_)};
+  }
+
+  // The name that the whole surface has is that of the solid.
+  void name_body(FitState& state) const {
+    const std::string name = name_of_body(surface_.surface());
+    if (name.empty() || state.side == Side::Outside) return;
+    state.mesh.region_names = {name};
+    if (state.side == Side::Both) state.mesh.region_names = {"", name};
   }
 
   const Target& target_;

@@ -26,6 +26,33 @@ std::optional<Issue> find_bad_index(const IdVector<IdType, std::array<VertId, N>
   return std::nullopt;
 }
 
+/// Either nothing has a name, or every number has an entry.
+template <class IdType>
+bool has_entry(const IdVector<IdType, std::string>& names, IdType id) {
+  return names.empty() || !id.is_valid() || id.index() < names.size();
+}
+
+std::optional<Issue> find_bad_label(const BoundaryLabels& labels, std::size_t num_verts) {
+  const auto in_range = [&](VertId v) { return v.is_valid() && v.index() < num_verts; };
+  for (const auto& quad : labels.quads) {
+    for (VertId v : quad.verts)
+      if (!in_range(v)) return Issue{"a labelled quad uses a vertex out of range"};
+    if (!has_entry(labels.patch_names, quad.patch))
+      return Issue{"patch " + std::to_string(quad.patch.value()) + " has no entry among the " +
+                   std::to_string(labels.patch_names.size()) + " names of patches"};
+  }
+  for (const auto& edge : labels.edges) {
+    for (VertId v : edge.verts)
+      if (!in_range(v)) return Issue{"a labelled edge uses a vertex out of range"};
+    if (!has_entry(labels.curve_names, edge.curve))
+      return Issue{"curve " + std::to_string(edge.curve.value()) + " has no entry among the " +
+                   std::to_string(labels.curve_names.size()) + " names of curves"};
+  }
+  for (VertId v : labels.corners)
+    if (!in_range(v)) return Issue{"a labelled corner is out of range"};
+  return std::nullopt;
+}
+
 /// Vertices that nothing uses may lie anywhere, also at infinity: they do not count.
 template <class Elements>
 Box3 box_of_used(const IdVector<VertId, Vec3>& positions, const Elements& elements) {
@@ -39,6 +66,12 @@ Box3 box_of_used(const IdVector<VertId, Vec3>& positions, const Elements& elemen
 
 std::optional<Issue> TriMesh::find_problem() const {
   if (auto issue = find_bad_index(tris, num_verts(), "triangle")) return issue;
+  if (!group.empty() && group.size() != num_tris())
+    return Issue{"groups do not match the number of triangles"};
+  for (TriId t : group.ids())
+    if (group[t] < -1 || group[t] >= static_cast<std::int64_t>(group_names.size()))
+      return Issue{"triangle " + std::to_string(t.value()) + " is in group " +
+                   std::to_string(group[t]) + " of " + std::to_string(group_names.size())};
   return find_bad_position(positions);
 }
 
@@ -51,15 +84,7 @@ std::optional<Issue> HexMesh::find_problem() const {
   if (auto issue = find_bad_index(hexes, num_verts(), "hex")) return issue;
   if (!region.empty() && region.size() != num_hexes())
     return Issue{"region tags do not match the number of hexes"};
-  const auto in_range = [&](VertId v) { return v.is_valid() && v.index() < num_verts(); };
-  for (const auto& quad : labels.quads)
-    for (VertId v : quad.verts)
-      if (!in_range(v)) return Issue{"a labelled quad uses a vertex out of range"};
-  for (const auto& edge : labels.edges)
-    for (VertId v : edge.verts)
-      if (!in_range(v)) return Issue{"a labelled edge uses a vertex out of range"};
-  for (VertId v : labels.corners)
-    if (!in_range(v)) return Issue{"a labelled corner is out of range"};
+  if (auto issue = find_bad_label(labels, num_verts())) return issue;
   return find_bad_position(positions);
 }
 

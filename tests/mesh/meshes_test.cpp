@@ -29,6 +29,15 @@ TEST(HexMesh, EveryDamageIsNamed) {
       {"hex 3 uses vertex -1", [](HexMesh& m) { m.hexes[HexId(3)][0] = VertId(); }},
       {"hex 0 uses vertex 18", [](HexMesh& m) { m.hexes[HexId(0)][7] = VertId(m.num_verts()); }},
       {"region", [](HexMesh& m) { m.region.resize(3); }},
+      {"patch 1 has no entry among the 1 names",
+       [](HexMesh& m) {
+         m.labels.quads[0].patch = PatchId(1);
+         m.labels.patch_names = {"inlet"};
+       }},
+      {"curve 2 has no entry among the 2 names",
+       [](HexMesh& m) {
+         m.labels.curve_names = {"a", "b"};
+       }},
       {"quad", [](HexMesh& m) { m.labels.quads[0].verts[3] = VertId(18); }},
       {"edge", [](HexMesh& m) { m.labels.edges[0].verts[1] = VertId(); }},
       {"corner", [](HexMesh& m) { m.labels.corners[1] = VertId(18); }},
@@ -52,6 +61,27 @@ TEST(TriMesh, IndicesAndPositionsAreChecked) {
   cube = test::unit_cube_surface();
   cube.positions[VertId(3)].y = INFINITY;
   EXPECT_NE(cube.find_problem()->message.find("vertex 3"), std::string::npos);
+}
+
+TEST(TriMesh, GroupsAreChecked) {
+  TriMesh cube = test::unit_cube_surface();
+  cube.group_names = {"inlet"};
+  cube.group.assign(12, -1);
+  EXPECT_FALSE(cube.find_problem());
+  cube.group[TriId(7)] = 1;
+  EXPECT_NE(cube.find_problem()->message.find("triangle 7 is in group 1 of 1"), std::string::npos);
+  cube.group.resize(11);
+  EXPECT_NE(cube.find_problem()->message.find("groups"), std::string::npos);
+}
+
+TEST(HexMesh, NamesNeedNotBeThere) {
+  HexMesh mesh = labelled();
+  mesh.labels.patch_names = {"inlet"};
+  mesh.labels.curve_names = {"", "", "rim"};
+  mesh.region_names = {"steel"};
+  EXPECT_FALSE(mesh.find_problem());
+  mesh.labels.quads[0].patch = PatchId();
+  EXPECT_FALSE(mesh.find_problem());
 }
 
 TEST(TetMesh, IndicesAndPositionsAreChecked) {

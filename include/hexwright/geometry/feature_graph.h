@@ -43,12 +43,13 @@ struct FeatureGraph {
   double total_length() const;
 };
 
-/// The edges of a surface that are creases by angle, boundary or non-manifold edges, without those
-/// that lie off the solid's boundary. Linear but for winding numbers, which are slow among needles.
+/// The edges of a surface that are creases by angle, boundary or non-manifold edges or borders
+/// between named groups, without those that lie off the solid's boundary. Linear but for winding
+/// numbers, which are slow among needles.
 std::vector<std::array<VertId, 2>> find_creases(const SurfaceTree& surface, double crease_angle);
 
-/// Creases by dihedral angle, boundary and non-manifold edges, and the user's; chained, pruned,
-/// with corners.
+/// Creases by dihedral angle, boundary and non-manifold edges, borders between the surface's groups
+/// whatever their angle, and the user's; chained, pruned, with corners.
 FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options);
 /// The same without creases that lie off the solid's boundary (see exposure.h), as inside the union
 /// of overlapping parts: no mesh edge can follow them. The user's edges all stay.

@@ -27,7 +27,7 @@ struct SurfaceDiagnosis {
 };
 
 struct PreparedSurface {
-  TriMesh mesh;
+  TriMesh mesh;  ///< with the groups of the input
   IdVector<TriId, TriId>
       source_tri;  ///< per triangle: its id in the input; invalid where it closes a hole
   SurfaceDiagnosis diagnosis;

@@ -11,7 +11,10 @@
 namespace hexwright {
 
 struct SurfaceFile {
-  TriMesh mesh;                       ///< polygons are triangulated; nothing is welded or dropped
+  /// Polygons are triangulated; nothing is welded or dropped. Solids of STL, groups (or materials,
+  /// or objects) of OBJ and the face property patch, label, group or material of PLY are its
+  /// groups.
+  TriMesh mesh;
   std::string format;                 ///< "OBJ", "STL (binary)" ...
   std::vector<std::string> warnings;  ///< "count field says 1446 facets, file holds 446" ...
 };
@@ -20,7 +23,8 @@ struct SurfaceFile {
 /// message the remedy.
 SurfaceFile read_surface(const std::filesystem::path& path);
 
-/// Writes OBJ, OFF, binary STL or binary PLY by extension; the file appears whole or not at all.
+/// Writes OBJ, OFF, STL or binary PLY by extension; the file appears whole or not at all. STL is
+/// binary, or text when the surface has named groups; OFF loses them.
 void write_surface(const std::filesystem::path& path, const TriMesh& surface);
 
 }  // namespace hexwright

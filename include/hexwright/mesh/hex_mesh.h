@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hexwright/base/issue.h"
@@ -32,6 +33,9 @@ struct BoundaryLabels {
   std::vector<LabeledQuad> quads;
   std::vector<LabeledEdge> edges;
   std::vector<VertId> corners;
+  /// Names of patches and curves, or empty when none has one; "" for one without.
+  IdVector<PatchId, std::string> patch_names;
+  IdVector<CurveId, std::string> curve_names;
   friend bool operator==(const BoundaryLabels&, const BoundaryLabels&) = default;
 };
 
@@ -40,6 +44,8 @@ struct HexMesh {
   IdVector<HexId, std::array<VertId, 8>> hexes;  ///< numbering: hex_numbering.h
   IdVector<HexId, std::int32_t> region;          ///< one tag per hex, or empty (all 0)
   BoundaryLabels labels;
+  /// Names of regions by tag, "" for one without; tags that are negative or beyond have none.
+  std::vector<std::string> region_names;
 
   std::size_t num_verts() const { return positions.size(); }
   std::size_t num_hexes() const { return hexes.size(); }

@@ -33,6 +33,18 @@ bool is_crease(const std::span<const SurfaceEdges::Side> sides, const std::vecto
   return (is_consistent ? dot(a, b) : -dot(a, b)) < min_cosine;
 }
 
+/// Whether triangles of different groups meet; those that were added to the surface have none.
+bool is_group_border(const TriMesh& surface, const std::span<const SurfaceEdges::Side> sides) {
+  if (surface.group.empty()) return false;
+  std::int32_t first = -1;
+  for (const auto& side : sides) {
+    const std::int32_t group = surface.group[side.tri];
+    if (group >= 0 && first >= 0 && group != first) return true;
+    if (group >= 0) first = group;
+  }
+  return false;
+}
+
 /// Sorted, each edge once; the vertices are checked, as they come from files.
 std::vector<std::uint64_t> user_keys(const TriMesh& surface,
                                      std::span<const std::array<VertId, 2>> user_edges) {
@@ -82,7 +94,8 @@ std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
   parallel_for(
       edges.size(),
       [&](std::size_t e) {
-        is_taken[e] = is_crease(edges.sides_of(e), normals, min_cosine) &&
+        is_taken[e] = (is_crease(edges.sides_of(e), normals, min_cosine) ||
+                       is_group_border(surface, edges.sides_of(e))) &&
                       (!tree || is_exposed(*tree, edges, e));
       },
       kGrain);

@@ -8,6 +8,7 @@
 #include "hexwright/geometry/surface_tree.h"
 
 #include "geometry/prepare/surface_clean.h"
+#include "geometry/prepare/surface_groups.h"
 #include "geometry/prepare/surface_orient.h"
 
 namespace hexwright {
@@ -52,6 +53,8 @@ TriMesh used_only(const TriMesh& input) {
   for (const auto& tri : input.tris)
     for (VertId v : tri) is_used[v] = 1;
   TriMesh mesh = input;
+  mesh.group.clear();  // follows at the end, by the source of each triangle
+  mesh.group_names.clear();
   for (VertId v : mesh.positions.ids())
     if (!is_used[v]) mesh.positions[v] = input.positions[input.tris[TriId(0)][0]];
   return mesh;
@@ -232,6 +235,7 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);
   result.mesh = compact(work.mesh, input);
   result.source_tri = std::move(work.source);
+  carry_groups(input, result);
   return result;
 }
 

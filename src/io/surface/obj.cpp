@@ -1,9 +1,16 @@
-// Reads Wavefront OBJ surfaces: v and f lines; everything else is passed over.
+// Reads Wavefront OBJ surfaces: v and f lines, and the names of groups; everything else is passed
+// over.
+//
+// Names are of three kinds: g, usemtl and o. The first of them that tells faces apart is taken;
+// when none does, the first that there is.
 //
 // Based on: Wavefront, "Advanced Visualizer Manual", appendix B1 (object files).
 // Differs: curves and free-form surfaces are passed over, with a warning for words that are not
 // even of the format.
+#include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 
 #include "io/surface/polygon_soup.h"
 #include "io/text/text_scanner.h"
@@ -12,10 +19,34 @@ namespace hexwright::io {
 namespace {
 
 // Keywords of the format that carry no surface. Others are passed over too, with a warning.
-constexpr std::array<std::string_view, 24> kOtherKeywords = {
-    "vt",     "vn",  "vp",     "g",    "o",     "s",         "mg",       "usemtl",
-    "l",      "p",   "mtllib", "lod",  "bevel", "maplib",    "usemap",   "shadow_obj",
-    "cstype", "deg", "step",   "curv", "curv2", "trace_obj", "c_interp", "d_interp"};
+constexpr std::array<std::string_view, 21> kOtherKeywords = {
+    "vt",     "vn",   "vp",    "s",      "mg",        "l",          "p",
+    "mtllib", "lod",  "bevel", "maplib", "usemap",    "shadow_obj", "cstype",
+    "deg",    "step", "curv",  "curv2",  "trace_obj", "c_interp",   "d_interp"};
+
+// Keywords that name what follows, the most telling first.
+constexpr std::array<std::string_view, 3> kNamingKeywords = {"g", "usemtl", "o"};
+
+/// One kind of names: which each face is under.
+struct ObjNames {
+  std::vector<std::string> names = {""};
+  std::map<std::string, std::size_t> name_to_number = {{"", 0}};
+  std::vector<std::size_t> face_to_name;  ///< shorter than the faces until the kind is used
+  std::size_t current = 0;
+
+  void begin(std::string&& name, std::size_t num_faces) {
+    face_to_name.resize(num_faces, current);
+    const auto [at, is_new] = name_to_number.try_emplace(name, names.size());
+    current = at->second;
+    if (is_new) names.push_back(std::move(name));
+  }
+  void end(std::size_t num_faces) { face_to_name.resize(num_faces, current); }
+  bool tells_apart() const {
+    return std::adjacent_find(face_to_name.begin(), face_to_name.end(), std::not_equal_to<>()) !=
+           face_to_name.end();
+  }
+  bool has_name() const { return !face_to_name.empty() && face_to_name[0] != 0; }
+};
 
 class ObjReader {
  public:
@@ -29,15 +60,45 @@ class ObjReader {
         soup_.positions.push_back(scanner_.line_point("a vertex"));
       else if (keyword == "f" || keyword == "fo")
         read_face();
-      else
+      else if (!read_name(keyword))
         note_other(keyword);
       scanner_.next_line();
     }
     check_forward_references();
+    take_names();
     return std::move(soup_);
   }
 
  private:
+  /// "g inlet", "usemtl steel": all words after the keyword are the name.
+  bool read_name(std::string_view keyword) {
+    const auto kind = std::find(kNamingKeywords.begin(), kNamingKeywords.end(), keyword);
+    if (kind == kNamingKeywords.end()) return false;
+    std::string name;
+    for (auto word = scanner_.line_token(); !word.empty(); word = scanner_.line_token()) {
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    names_[static_cast<std::size_t>(kind - kNamingKeywords.begin())].begin(std::move(name),
+                                                                           soup_.ends.size());
+    return true;
+  }
+
+  void take_names() {
+    for (ObjNames& kind : names_) kind.end(soup_.ends.size());
+    auto chosen = std::find_if(names_.begin(), names_.end(),
+                               [](const ObjNames& kind) { return kind.tells_apart(); });
+    if (chosen == names_.end())
+      chosen = std::find_if(names_.begin(), names_.end(),
+                            [](const ObjNames& kind) { return kind.has_name(); });
+    if (chosen == names_.end()) return;
+    std::vector<std::int32_t> name_to_group(chosen->names.size(), -1);
+    for (const std::size_t name : chosen->face_to_name) {
+      if (name_to_group[name] < 0) name_to_group[name] = soup_.add_group(chosen->names[name]);
+      soup_.group.push_back(name_to_group[name]);
+    }
+  }
+
   void read_face() {
     for (auto token = scanner_.line_token(); !token.empty(); token = scanner_.line_token())
       soup_.verts.push_back(to_vert(token));
@@ -91,6 +152,7 @@ class ObjReader {
   const SurfaceSource& source_;
   TextScanner scanner_;
   PolygonSoup soup_;
+  std::array<ObjNames, kNamingKeywords.size()> names_;
   std::int64_t largest_index_ = 0;
   std::size_t largest_line_ = 0;
   bool has_warned_ = false;

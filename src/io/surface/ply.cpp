@@ -1,11 +1,15 @@
 // Reads PLY surfaces: text, binary little endian, binary big endian.
 //
 // Vertices are the properties x, y, z of any number type; polygons are the lists vertex_indices (or
-// vertex_index) of element face, or triangle strips (element tristrips). The rest is passed over.
+// vertex_index) of element face, or triangle strips (element tristrips). An integer property patch,
+// label, group or material of the faces, the first of them that there is, names their group
+// ("patch_3"); lines "comment group 3 NAME" give the names themselves. The rest is passed over.
 //
 // Based on: Turk, "The PLY Polygon File Format", 1994.
 // Differs: number types go by their old and new names, strips are read, and lists may come
 // anywhere.
+#include <charconv>
+#include <map>
 #include <optional>
 
 #include "io/surface/polygon_soup.h"
@@ -52,6 +56,7 @@ struct PlyHeader {
   bool is_ascii = true;
   ByteOrder order = ByteOrder::Little;
   std::vector<PlyElement> elements;
+  std::map<std::int64_t, std::string> names;  ///< of groups, by number
 };
 
 PlyType to_ply_type(const TextScanner& scanner, std::string_view token) {
@@ -88,6 +93,18 @@ void read_property(TextScanner& scanner, PlyHeader& header) {
   header.elements.back().properties.push_back(std::move(property));
 }
 
+/// The rest of a comment line: "group 3 NAME" is ours, anything else is free text.
+void read_comment(std::string_view comment, PlyHeader& header) {
+  constexpr std::string_view kGroup = " group ";
+  if (!comment.starts_with(kGroup)) return;
+  comment.remove_prefix(kGroup.size());
+  std::int32_t group = 0;
+  const char* end = comment.data() + comment.size();
+  const auto number = std::from_chars(comment.data(), end, group);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == ' ')
+    header.names[group] = clean_name({number.ptr, end});
+}
+
 /// Lines up to end_header. The body begins right behind that line's end, which matters in binary
 /// files, where a body may begin with any byte.
 PlyHeader read_ply_header(TextScanner& scanner) {
@@ -114,7 +131,10 @@ PlyHeader read_ply_header(TextScanner& scanner) {
       read_property(scanner, header);
     } else if (keyword == "end_header") {
       break;
-    } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+    } else if (keyword == "comment") {
+      read_comment(scanner.rest_of_line(), header);
+      continue;  // the line is behind
+    } else if (!keyword.empty() && keyword != "obj_info") {
       scanner.fail("unexpected " + in_quotes(keyword) +
                    " in the header, or no end_header line; export the file again");
     }
@@ -211,6 +231,15 @@ class PlyBinaryBody {
   std::size_t index_ = 0;
 };
 
+/// The property of the faces that names their group, or null.
+const PlyProperty* find_group_property(const PlyElement& element) {
+  for (std::string_view name : {"patch", "label", "group", "material"})
+    for (const PlyProperty& property : element.properties)
+      if (property.name == name && !property.list_count && property.type < PlyType::Float32)
+        return &property;
+  return nullptr;
+}
+
 /// Walks through the elements in the order of the header. The body is text or bytes; both offer the
 /// same few functions, so that the rules about elements are written once.
 template <class Body>
@@ -227,6 +256,7 @@ class PlyReader {
       }
     }
     check_indices();
+    name_groups();
     return std::move(soup_);
   }
 
@@ -235,6 +265,10 @@ class PlyReader {
     if (element.name == "vertex") return read_vertex(element);
     const bool is_face = element.name == "face";
     const bool is_strips = element.name == "tristrips";
+    const PlyProperty* group = is_face ? find_group_property(element) : nullptr;
+    if (group) group_property_ = group->name;
+    std::int64_t number = -1;
+    if (group) face_to_number_.resize(soup_.ends.size(), -1);
     for (const PlyProperty& property : element.properties) {
       const bool is_polygon = property.list_count && (property.name == "vertex_indices" ||
                                                       property.name == "vertex_index");
@@ -242,9 +276,32 @@ class PlyReader {
         read_polygon(property);
       else if (is_polygon && is_strips)
         read_strips(property);
+      else if (&property == group)
+        number = body_.integer(property.type);
       else
         skip(property);
     }
+    if (group) face_to_number_.resize(soup_.ends.size(), number);
+  }
+
+  /// Names are given when all faces are known. Those without a number, or with a negative one, have
+  /// none.
+  void name_groups() {
+    if (face_to_number_.empty()) return;
+    face_to_number_.resize(soup_.ends.size(), -1);
+    std::map<std::int64_t, std::int32_t> number_to_group;
+    for (const std::int64_t number : face_to_number_) {
+      const auto [at, is_new] = number_to_group.try_emplace(number, 0);
+      if (is_new) at->second = soup_.add_group(name_of(number));
+      soup_.group.push_back(at->second);
+    }
+  }
+
+  std::string name_of(std::int64_t number) const {
+    if (number < 0) return "";
+    const auto named = header_.names.find(number);
+    return named != header_.names.end() ? named->second
+                                        : group_property_ + "_" + std::to_string(number);
   }
 
   void read_vertex(const PlyElement& element) {
@@ -340,6 +397,8 @@ class PlyReader {
   const PlyHeader& header_;
   Body body_;
   PolygonSoup soup_;
+  std::string group_property_;
+  std::vector<std::int64_t> face_to_number_;  // empty when faces have no groups
 };
 
 }  // namespace

@@ -114,18 +114,66 @@ void split_polygon(const IdVector<VertId, Vec3>& positions, std::span<const Vert
     EarClipper(positions, polygon).run(out);
 }
 
+/// Bytes of the printable character at the start of a text; 0 when there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
 }  // namespace
+
+std::int32_t PolygonSoup::add_group(std::string_view name) {
+  const auto next = static_cast<std::int32_t>(group_names.size());
+  const auto [at, is_new] = name_to_group.try_emplace(clean_name(name), next);
+  if (is_new) group_names.push_back(at->first);
+  return at->second;
+}
+
+/// What came before the first name has none.
+void PolygonSoup::begin_group(std::string_view name) {
+  if (group.empty() && !ends.empty()) group.assign(ends.size(), add_group(""));
+  current_group = add_group(name);
+}
+
+std::string clean_name(std::string_view name) {
+  constexpr std::size_t kLongest = 200;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+  while (!name.empty() && is_blank(name.front())) name.remove_prefix(1);
+  while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
+  std::string clean;
+  for (std::size_t i = 0; i < name.size() && clean.size() < kLongest;) {
+    const std::size_t length = utf8_length(name.substr(i));
+    if (length == 0) {
+      clean += '_';
+      ++i;
+      continue;
+    }
+    clean += name.substr(i, length);
+    i += length;
+  }
+  return clean;
+}
 
 TriMesh triangulate(PolygonSoup&& soup) {
   TriMesh mesh;
   mesh.positions = std::move(soup.positions);
   auto& tris = mesh.tris.raw();
   tris.reserve(soup.ends.size());
+  const bool is_named =
+      !soup.group_names.empty() && soup.group_names != std::vector<std::string>{""};
   std::size_t begin = 0;
-  for (std::size_t end : soup.ends) {
+  for (std::size_t p = 0; p < soup.ends.size(); ++p) {
+    const std::size_t end = soup.ends[p];
     split_polygon(mesh.positions, std::span(soup.verts).subspan(begin, end - begin), tris);
+    if (is_named) mesh.group.resize(tris.size(), soup.group[p]);
     begin = end;
   }
+  if (is_named) mesh.group_names = std::move(soup.group_names);
   return mesh;
 }
 

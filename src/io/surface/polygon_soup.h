@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,17 +15,34 @@ namespace hexwright::io {
 struct PolygonSoup {
   IdVector<VertId, Vec3> positions;
   std::vector<VertId> verts;
-  std::vector<std::size_t> ends;  ///< ends[p]: one past polygon p's last entry in `verts`
+  std::vector<std::size_t> ends;         ///< ends[p]: one past polygon p's last entry in `verts`
+  std::vector<std::int32_t> group;       ///< per polygon, or empty while nothing has a name
+  std::vector<std::string> group_names;  ///< as in TriMesh
 
   /// Closes the polygon whose vertices were appended to `verts` since the last call.
-  void end_polygon() { ends.push_back(verts.size()); }
+  void end_polygon() {
+    ends.push_back(verts.size());
+    if (!group_names.empty()) group.push_back(current_group);
+  }
+  /// Polygons closed from now on belong to this group; "" is the group without a name.
+  void begin_group(std::string_view name);
+  /// The group of this name, made when there is none yet.
+  std::int32_t add_group(std::string_view name);
   std::size_t num_open_verts() const {
     return verts.size() - (ends.empty() ? std::size_t{0} : ends.back());
   }
+
+  std::int32_t current_group = -1;
+  std::map<std::string, std::int32_t, std::less<>> name_to_group;
 };
 
+/// A name as it is kept in memory: trimmed, at most 200 bytes, control characters and bytes that
+/// are no UTF-8 replaced by '_'.
+std::string clean_name(std::string_view name);
+
 /// Triangles as they are; quads along the diagonal that folds less; larger polygons by ear clipping
-/// in their mean plane, so that concave ones keep their shape. n-2 triangles each, in file order.
+/// in their mean plane, so that concave ones keep their shape. n-2 triangles each, in file order,
+/// in their polygon's group; groups that say nothing (one without a name) are left out.
 TriMesh triangulate(PolygonSoup&& soup);
 
 /// Readers of one format each: `text`/`bytes` is the whole file, `warnings` may be appended to.

@@ -53,7 +53,7 @@ class StlTextReader {
   PolygonSoup run() {
     while (scanner_.skip_blank()) {
       expect("solid");
-      scanner_.next_line();  // the solid's name
+      soup_.begin_group(scanner_.rest_of_line());
       while (read_facet()) {
       }
       scanner_.next_line();

@@ -1,6 +1,7 @@
 // Reads and writes surfaces: finds the format by content, then by extension.
 #include "hexwright/io/surface_io.h"
 
+#include <map>
 #include <optional>
 
 #include "hexwright/io/atomic_file.h"
@@ -86,11 +87,26 @@ SurfaceFormat find_format(const FileBytes& file, const std::string& extension,
                  "give an OBJ, OFF, STL or PLY file");
 }
 
-/// Shortest decimal forms that give the same doubles back.
+/// The name of a triangle's group, "" without one.
+const std::string& group_name(const TriMesh& surface, TriId t) {
+  static const std::string kNone;
+  return surface.group.empty() || surface.group[t] < 0
+             ? kNone
+             : surface.group_names[static_cast<std::size_t>(surface.group[t])];
+}
+
+/// Shortest decimal forms that give the same doubles back. Groups are named where they begin.
 std::string obj_text(const TriMesh& surface) {
   TextWriter out;
   for (const Vec3& p : surface.positions) out.text("v ").point(p).text("\n");
-  for (const auto& t : surface.tris) out.text("f ").indices(t, 1).text("\n");
+  std::string_view named;
+  for (TriId t : surface.tris.ids()) {
+    if (group_name(surface, t) != named) {
+      named = group_name(surface, t);
+      out.text(named.empty() ? "g" : "g ").text(named).text("\n");
+    }
+    out.text("f ").indices(surface.tris[t], 1).text("\n");
+  }
   return out.take();
 }
 
@@ -100,6 +116,31 @@ std::string off_text(const TriMesh& surface) {
   out.text(" 0\n");
   for (const Vec3& p : surface.positions) out.point(p).text("\n");
   for (const auto& t : surface.tris) out.text("3 ").indices(t, 0).text("\n");
+  return out.take();
+}
+
+/// Text with one solid per group, since the binary form has no names; in single precision too, so
+/// that both forms hold the same surface.
+std::string named_stl_text(const TriMesh& surface) {
+  std::map<std::string_view, std::vector<TriId>> solids;
+  for (TriId t : surface.tris.ids()) solids[group_name(surface, t)].push_back(t);
+  TextWriter out;
+  const auto put = [&](const char* before, const Vec3& p) {
+    out.text(before);
+    for (int axis = 0; axis < 3; ++axis) out.text(" ").single(static_cast<float>(p[axis]));
+    out.text("\n");
+  };
+  for (const auto& [name, tris] : solids) {
+    out.text("solid ").text(name).text("\n");
+    for (TriId t : tris) {
+      const auto p = surface.corners(t);
+      put("facet normal", normalized(cross(p[1] - p[0], p[2] - p[0])));
+      out.text("outer loop\n");
+      for (const Vec3& corner : p) put("vertex", corner);
+      out.text("endloop\nendfacet\n");
+    }
+    out.text("endsolid ").text(name).text("\n");
+  }
   return out.take();
 }
 
@@ -122,18 +163,23 @@ std::string stl_bytes(const TriMesh& surface) {
 
 /// Double precision, so that nothing is lost between our own runs.
 std::string ply_bytes(const TriMesh& surface) {
+  const bool is_named = !surface.group.empty();
   TextWriter header;
-  header.text("ply\nformat binary_little_endian 1.0\ncomment hexwright\nelement vertex ");
-  header.integer(surface.num_verts());
+  header.text("ply\nformat binary_little_endian 1.0\ncomment hexwright\n");
+  for (std::size_t g = 0; g < surface.group_names.size(); ++g)
+    header.text("comment group ").integer(g).text(" ").text(surface.group_names[g]).text("\n");
+  header.text("element vertex ").integer(surface.num_verts());
   header.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
   header.integer(surface.num_tris());
-  header.text("\nproperty list uchar int vertex_indices\nend_header\n");
+  header.text("\nproperty list uchar int vertex_indices\n");
+  header.text(is_named ? "property int group\nend_header\n" : "end_header\n");
   std::string out = header.take();
   for (const Vec3& p : surface.positions)
     for (int axis = 0; axis < 3; ++axis) store(out, p[axis], ByteOrder::Little);
-  for (const auto& t : surface.tris) {
+  for (TriId t : surface.tris.ids()) {
     out.push_back(3);
-    for (VertId v : t) store(out, v.value(), ByteOrder::Little);
+    for (VertId v : surface.tris[t]) store(out, v.value(), ByteOrder::Little);
+    if (is_named) store(out, surface.group[t], ByteOrder::Little);
   }
   return out;
 }
@@ -164,7 +210,8 @@ void write_surface(const std::filesystem::path& path, const TriMesh& surface) {
   else if (extension == ".off")
     write_file_atomically(path, io::off_text(surface));
   else if (extension == ".stl")
-    write_file_atomically(path, io::stl_bytes(surface));
+    write_file_atomically(
+        path, surface.group.empty() ? io::stl_bytes(surface) : io::named_stl_text(surface));
   else if (extension == ".ply")
     write_file_atomically(path, io::ply_bytes(surface));
   else

@@ -23,6 +23,7 @@ class TextWriter {
     return number(value);
   }
   TextWriter& real(double value) { return number(value); }
+  TextWriter& single(float value) { return number(value); }
   /// Scientific form with this many digits after the point.
   TextWriter& real_rounded(double value, int digits) {
     char buffer[48];
