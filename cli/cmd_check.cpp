@@ -34,7 +34,8 @@ bool is_grid(const std::string& path) {
   if (!has_extension(path, grid_extensions())) return false;
   try {
     return read_grid(path).num_cells() > 0;
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    if (e.code() == ErrorCode::Cancelled) throw;
     return false;
   }
 }
@@ -95,7 +96,7 @@ void add_check_command(CLI::App& app, Program& program) {
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
   sub->add_flag("--json", cmd->as_json, "Print the verdict as JSON");
   sub->add_option("--report", cmd->report, "Write the verdict as JSON");
-  add_feature_options(*sub, cmd->features);
+  add_options(*sub, make_option_table(cmd->features));
   add_feature_file_option(*sub, cmd->feature_file);
   add_grid_demands(*sub, *cmd);
   add_console_options(*sub, program);

@@ -18,9 +18,7 @@ namespace {
 
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
-  bool no_carve = false;
-  TargetOptions target;
-  FitOptions options;
+  FitStageOptions options;
 };
 
 /// The result is judged as `check` would judge it, and decides the exit code.
@@ -30,14 +28,12 @@ void run(const FitCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
-  TargetOptions wishes = cmd.target;
-  load_features(cmd.features, surface, wishes.features);
+  FitStageOptions wishes = cmd.options;
+  load_features(cmd.features, surface, wishes.target.features);
   const Target target =
-      naming_file(cmd.surface, [&] { return make_target(surface, wishes, context); });
-  FitOptions options = cmd.options;
-  options.do_carve = !cmd.no_carve;
+      naming_file(cmd.surface, [&] { return make_target(surface, wishes.target, context); });
   const FitResult result = naming_file(cmd.hexes, [&] {
-    FitResult fitted = fit(to_unit(background, target.frame), target, options, context);
+    FitResult fitted = fit(to_unit(background, target.frame), target, wishes.fit, context);
     fitted.to_world(target.frame);
     return fitted;
   });
@@ -52,7 +48,7 @@ void run(const FitCommand& cmd, Program& program) {
   write_mesh_with_quality(cmd.output, result.mesh);
   if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
   JudgeOptions judged;
-  if (options.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
+  if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
   Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
   verdict.to_world(target.frame);
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
@@ -71,9 +67,7 @@ void add_fit_command(CLI::App& app, Program& program) {
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
-  sub->add_flag("--no-carve", cmd->no_carve, "The mesh already stands for the object: only fit it");
-  add_fit_options(*sub, cmd->options);
-  add_feature_options(*sub, cmd->target.features);
+  add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

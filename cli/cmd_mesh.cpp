@@ -21,7 +21,6 @@ namespace {
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
   std::string input, output, report, picture, grid, features;
-  bool no_loop = false;
   MeshOptions options;
 };
 
@@ -44,7 +43,6 @@ void run(const MeshCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  if (cmd.no_loop) use_single_pass(options);
   // Grid files have no axes of their own.
   if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
   load_features(cmd.features, surface, options.target.features);
@@ -73,29 +71,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
-  add_sizing_options(*sub, cmd->options.sizing);
-  // A level asked for binds the loop too.
-  sub->get_option("--max-level")->each([cmd](const std::string&) {
-    cmd->options.loop_extra_levels = 0;
-  });
-  add_placement_option(*sub, cmd->options.target);
-  sub->add_flag("--no-loop", cmd->no_loop,
-                "A single pass with a stricter a-priori sizing, instead of refining where the fit "
-                "missed");
-  sub->add_option("--transition-cost", cmd->options.even.transition_cost,
-                  "What a cell beside another level counts more than one that is not, when levels "
-                  "are evened out; 0 = never even out")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  sub->add_option("--rounds", cmd->options.max_rounds, "At most so many refinements")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  sub->add_option("--max-hexes", cmd->options.max_hexes, "Budget of the background mesh")
-      ->check(whole_count())
-      ->capture_default_str();
-  add_complete_options(*sub, cmd->options.complete);
-  add_fit_options(*sub, cmd->options.fit);
-  add_feature_options(*sub, cmd->options.target.features);
+  add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

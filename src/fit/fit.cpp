@@ -360,6 +360,7 @@ class Fitter {
 
 FitResult fit(const HexMesh& background, const Target& target, const FitOptions& options,
               const Context& context) {
+  const auto watch = context.watch();
   require_consistent(options);
   return Fitter(target, options, context).run(background);
 }

@@ -93,6 +93,7 @@ void MeshResult::to_world(const Similarity& frame) {
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {
   const Stopwatch clock;
+  const auto watch = caller.watch();
   MeshResult result;
   const Context context = collect_warnings(caller, result.warnings);
 

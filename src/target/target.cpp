@@ -65,6 +65,7 @@ void warn_unmatched(const FeatureGraph& features, const Context& context) {
 }  // namespace
 
 Target make_target(const TriMesh& surface, const TargetOptions& options, const Context& context) {
+  const auto watch = context.watch();
   std::vector<StageRecord> stages;
   PreparedSurface prepared =
       run_stage(stages, "prepare", context, [&] { return prepare_surface(surface, context); });

@@ -1,6 +1,8 @@
 // The plan: what each stage is asked for follows from the wishes and the surface alone.
 #include "hexwright/pipeline/plan.h"
 
+#include "hexwright/pipeline/stages.h"
+
 #include <gtest/gtest.h>
 
 #include "helpers.h"
@@ -86,9 +88,7 @@ TEST(Plan, StagesByHandGiveTheSameGrid) {
   wishes.target.placement = Placement::AsGiven;
   wishes.max_rounds = 0;
   wishes.sizing.max_level = 4;
-  const Target target = make_target(surface, plan_target(wishes), {});
-  SizingResult sizing = build_grid(target, plan(wishes, target).sizing, {});
-  sizing.to_world(target.frame);
+  const SizingResult sizing = size_surface(surface, wishes, {});
   const MeshResult whole = mesh_surface(surface, wishes, {});
   EXPECT_EQ(sizing.grid.cells, whole.sizing.grid.cells);
   EXPECT_EQ(sizing.grid.frame, whole.sizing.grid.frame);

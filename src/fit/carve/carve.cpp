@@ -226,6 +226,7 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
                   const ExpectedTopology& expected, const CarveOptions& options,
                   const Context& context) {
+  const auto watch = context.watch();
   require_positive(options.keep_fraction);
   context.progress("carve", 0);
   const VertToHex vert_to_hex(background);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 
@@ -33,7 +35,9 @@ class VtkConverter {
     patch_ = find_cell_array({"patch"});
     curve_ = find_cell_array({"curve"});
     std::int64_t begin = 0;
+    CancelCheck check_cancelled;
     for (cell_ = 0; cell_ < grid_.ends.size(); ++cell_) {
+      check_cancelled();
       const std::int64_t end = grid_.ends[cell_];
       if (end < begin || end > static_cast<std::int64_t>(grid_.connectivity.size()))
         fail("its vertices lie outside the connectivity array");
