@@ -132,8 +132,9 @@ void require_same_place(const HexMesh& mesh, const SurfaceTree& surface) {
 
 class Fitter {
  public:
-  Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
-      : surface_(surface),
+  Fitter(const Target& target, const FitOptions& options, const Context& context)
+      : target_(target),
+        surface_(target.tree),
         options_(options),
         context_(context),
         clock_(context, report_.seconds, report_.processor_seconds) {}
@@ -210,7 +211,7 @@ class Fitter {
 
   FitState keep_hexes(const HexMesh& background) {
     if (!options_.do_carve) return FitState(background);
-    report_.carve = carve(background, surface_, options_.carve, context_);
+    report_.carve = carve(background, surface_, target_.expected, options_.carve, context_);
     return keep_side(background, report_.carve.is_kept, options_.carve.side);
   }
 
@@ -233,14 +234,16 @@ class Fitter {
     std::vector<double> sizes;
     for (VertId v : state.kind.ids())
       if (state.is_boundary(v)) sizes.push_back(state.size[v]);
-    FeatureOptions features = options_.features;
+    FeatureOptions features = target_.feature_options;
     if (!sizes.empty()) {
       const auto decile = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 10);
       std::nth_element(sizes.begin(), decile, sizes.end());
       const double least = 4 * *decile;
       features.min_length = features.min_length > 0 ? std::min(features.min_length, least) : least;
     }
-    features_ = extract_features(surface_, features);
+    const bool is_as_wished = features.min_length == target_.feature_options.min_length;
+    features_ =
+        is_as_wished ? target_.features : extract_features(surface_, features, target_.creases);
   }
 
   // Curves that turn out to be met badly are given up and the mapping done anew without them; the
@@ -416,7 +419,8 @@ class Fitter {
     if (state.side == Side::Both) state.mesh.region_names = {"", name};
   }
 
-  const SurfaceTree& surface_;
+  const Target& target_;
+  const SurfaceTree& surface_;  // of the target
   const FitOptions& options_;
   const Context& context_;
   FeatureGraph features_;
@@ -426,23 +430,32 @@ class Fitter {
 
 }  // namespace
 
-FitResult fit_unlifted(const HexMesh& background, const SurfaceTree& surface,
-                       const FitOptions& options, const Context& context) {
+FitResult fit_unlifted(const HexMesh& background, const Target& target, const FitOptions& options,
+                       const Context& context) {
   const auto watch = context.watch();
   require_consistent(options);
-  return Fitter(surface, options, context).run(background);
+  return Fitter(target, options, context).run(background);
 }
 
-FitResult lift_fit(const FitMemory& memory, const SurfaceTree& surface, const FitOptions& options,
+FitResult lift_fit(const FitMemory& memory, const Target& target, const FitOptions& options,
                    const Context& context) {
   const auto watch = context.watch();
-  return Fitter(surface, options, context).lift(memory);
+  return Fitter(target, options, context).lift(memory);
 }
 
-FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
+FitResult fit(const HexMesh& background, const Target& target, const FitOptions& options,
               const Context& context) {
-  FitResult result = fit_unlifted(background, surface, options, context);
-  return result.memory ? lift_fit(*result.memory, surface, options, context) : result;
+  FitResult result = fit_unlifted(background, target, options, context);
+  return result.memory ? lift_fit(*result.memory, target, options, context) : result;
+}
+
+FitResult fit(const HexMesh& background, const TriMesh& surface,
+              const TargetOptions& target_options, const FitOptions& options,
+              const Context& context) {
+  const Target target = make_target(surface, target_options, context);
+  FitResult result = fit(to_unit(background, target.frame), target, options, context);
+  result.to_world(target.frame);
+  return result;
 }
 
 }  // namespace hexwright

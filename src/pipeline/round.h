@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "hexwright/geometry/expected_topology.h"
-#include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/plan.h"
 
 #include "pipeline/crowded_features.h"
 
@@ -15,12 +14,10 @@ constexpr double kGateFactor = 2;
 
 /// What all rounds share.
 struct RoundInput {
-  const SurfaceTree& tree;
+  const Target& target;
   const MeshOptions& options;
-  const ExpectedTopology& expected;
+  const StagePlan& plan;
   const Context& context;
-  /// The curves of the verdicts; without them none is taken to be crowded.
-  const FeatureGraph* features = nullptr;
 };
 
 struct Round {

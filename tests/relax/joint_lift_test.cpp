@@ -141,12 +141,12 @@ TriMesh turned_plate(std::mt19937& rng) {
   return test::randomly_rotated(to_unit(plate, compute_unit_frame(plate)), rng);
 }
 
-Lifted lift_coarse(const SurfaceTree& tree, const FitOptions& options) {
-  const double h = tree.box().diagonal() / 36;
+Lifted lift_coarse(const Target& target, const FitOptions& options) {
+  const double h = target.diagonal() / 36;
   Lifted result;
-  result.before = fit_unlifted(test::grid_around(tree.box(), h), tree, options, {});
+  result.before = fit_unlifted(test::grid_around(target.tree.box(), h), target, options, {});
   EXPECT_NE(result.before.memory, nullptr);
-  if (result.before.memory) result.after = lift_fit(*result.before.memory, tree, options, {});
+  if (result.before.memory) result.after = lift_fit(*result.before.memory, target, options, {});
   return result;
 }
 
@@ -157,15 +157,15 @@ TEST(JointLift, RaisesTheLeastWithinTheTolerance) {
   double sum_before = 0, sum_after = 0;
   const FitOptions options = high_goal();
   for (int trial = 0; trial < 2; ++trial) {
-    const SurfaceTree tree(turned_plate(rng));
-    const Lifted lifted = lift_coarse(tree, options);
+    const Target target = wrap_target(turned_plate(rng));
+    const Lifted lifted = lift_coarse(target, options);
     sum_before += least(lifted.before);
     sum_after += least(lifted.after);
     EXPECT_GE(least(lifted.after), least(lifted.before) - 1e-9) << "trial " << trial;
     EXPECT_EQ(lifted.after.mesh.hexes, lifted.before.mesh.hexes);
     EXPECT_LE(lifted.after.report.unproven.size(), lifted.before.report.unproven.size());
-    const double before = measure_distance(lifted.before.mesh, tree, {}).max_two_way();
-    const double after = measure_distance(lifted.after.mesh, tree, {}).max_two_way();
+    const double before = measure_distance(lifted.before.mesh, target.tree, {}).max_two_way();
+    const double after = measure_distance(lifted.after.mesh, target.tree, {}).max_two_way();
     EXPECT_LE(after, std::max(options.tolerance, 1.05 * before)) << "trial " << trial;
   }
   EXPECT_GT(sum_after, sum_before + 2 * 0.05);
@@ -173,10 +173,10 @@ TEST(JointLift, RaisesTheLeastWithinTheTolerance) {
 
 TEST(JointLift, IsTheSameForAnyNumberOfThreads) {
   std::mt19937 rng(5);
-  const SurfaceTree tree(turned_plate(rng));
+  const Target target = wrap_target(turned_plate(rng));
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return lift_coarse(tree, high_goal()).after.mesh.positions;
+    return lift_coarse(target, high_goal()).after.mesh.positions;
   };
   const auto one = run(1);
   EXPECT_EQ(one, run(2));
@@ -184,14 +184,14 @@ TEST(JointLift, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(JointLift, HasNothingToDoWhereTheGoalIsMetOrNoneIsSet) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
-  const HexMesh grid = test::grid_around(sphere.box(), 0.12);
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(4)));
+  const HexMesh grid = test::grid_around(sphere.tree.box(), 0.12);
   EXPECT_EQ(fit_unlifted(grid, sphere, {}, {}).memory, nullptr);
   std::mt19937 rng(5);
-  const SurfaceTree plate(turned_plate(rng));
+  const Target plate = wrap_target(turned_plate(rng));
   FitOptions options;
   options.lift_goal = 0;
-  const HexMesh coarse = test::grid_around(plate.box(), plate.box().diagonal() / 30);
+  const HexMesh coarse = test::grid_around(plate.tree.box(), plate.diagonal() / 30);
   EXPECT_EQ(fit_unlifted(coarse, plate, options, {}).memory, nullptr);
 }
 
