@@ -180,11 +180,14 @@ void bind_mesh(nb::module_& module) {
   type.def_prop_ro("patch_names", [](const HexMesh& mesh) { return mesh.labels.patch_names.raw(); })
       .def_prop_ro("curve_names", [](const HexMesh& mesh) { return mesh.labels.curve_names.raw(); })
       .def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
-  type.def("quality", &quality_of, "name"_a)
+  type.def("quality", &quality_of, "name"_a,
+           nb::sig("def quality(self, name: str) -> numpy.typing.NDArray[numpy.float64]"))
       .def("save", &save, "path"_a, "fields"_a)
       .def("facets", &facets_of)
       .def("curves", &curves_of);
-  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a);
+  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
+             nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "
+                     "numpy.typing.NDArray[numpy.uint8]"));
   module.def(
       "read_mesh", [](const std::string& path) { return read_hex_mesh(path); }, "path"_a,
       nb::call_guard<nb::gil_scoped_release>());
