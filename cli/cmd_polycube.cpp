@@ -12,11 +12,11 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -77,7 +77,7 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
 
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start();
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
   PolycubeOptions options = cmd.options;
@@ -87,8 +87,9 @@ void run(const PolycubeCommand& cmd, Program& program) {
   const Verdict verdict = judge_polycube(result, context);
   program.console.clear_progress();
 
-  write_mesh_with_quality(cmd.output, result.mesh);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);
@@ -116,7 +117,8 @@ void add_polycube_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
   sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
   sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);
   sub->add_option("--report", cmd->report, "Write a report as JSON");

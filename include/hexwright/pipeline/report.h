@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hexwright/io/set_table.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/polycube/polycube.h"
 
@@ -12,6 +14,7 @@ namespace hexwright {
 struct RunInfo {
   std::string input, output;  ///< paths as given
   int num_threads = 0;
+  std::vector<ChangedName> changed_names;  ///< of sets, by the output's format
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
