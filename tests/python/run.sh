@@ -40,7 +40,7 @@ step_source() {
   command -v ccache >/dev/null && export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   export CCACHE_BASEDIR="$folder" PATH="$PYTHON_ENVS/build/bin:$PATH" CMAKE_BUILD_PARALLEL_LEVEL="$JOBS"
   (cd "$folder" && "$PYTHON_ENVS/build/bin/python" -m pip wheel . --no-deps --no-build-isolation -w "$folder/wheels" \
-    -C cmake.define.HEXWRIGHT_WERROR=ON -C cmake.define.CMAKE_CXX_COMPILER=c++ -v >"$folder/log" 2>&1) || {
+    -C cmake.define.HEXWRIGHT_WERROR=ON -C cmake.define.CMAKE_CXX_COMPILER=c++ -C "cmake.define.CMAKE_PREFIX_PATH=$DEPS/manifold" -v >"$folder/log" 2>&1) || {
     tail -30 "$folder/log"
     return 1
   }
