@@ -50,7 +50,7 @@ nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, 
   std::string report;
   run_stage(call.run, [&](const Context& context) {
     result = mesh_surface(surface, options, context);
-    report = report_to_json(result, options, {"", "", num_threads()});
+    report = report_to_json(result, options, {"", "", num_threads(), {}});
   });
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report);
 }
