@@ -25,7 +25,7 @@ struct FitCommand {
 /// The result is judged as `check` would judge it, and decides the exit code.
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
@@ -45,7 +45,7 @@ void run(const FitCommand& cmd, Program& program) {
     program.exit_code = FailsGate;
     return;
   }
-  write_mesh_with_quality(cmd.output, result.mesh);
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
   if (!cmd.picture.empty())
     write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   JudgeOptions judge_options;
@@ -66,7 +66,8 @@ void add_fit_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("fit", "Carve a hex mesh and fit it to a surface");
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");

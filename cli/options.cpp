@@ -12,6 +12,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/io/feature_io.h"
+#include "hexwright/io/mesh_io.h"
 
 namespace hexwright::cli {
 namespace {
@@ -95,6 +96,19 @@ void require_extension(const std::string& path, const std::vector<std::string>& 
   if (!has_extension(path, extensions))
     throw CLI::ValidationError(fmt::format("cannot write '{}': the extension must be one of {}",
                                            path, fmt::join(extensions, ", ")));
+}
+
+void require_mesh_format(const std::string& path, const std::string& format) {
+  try {
+    check_hex_mesh_format(path, format);
+  } catch (const Error& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
+void add_format_option(CLI::App& cmd, std::string& format) {
+  cmd.add_option("--format", format, "Format of the mesh, where the extension does not tell")
+      ->check(CLI::IsMember(hex_mesh_formats()));
 }
 
 TriMesh load_surface(const std::string& path, Program& program) {

@@ -31,6 +31,12 @@ double read_share(const std::string& option, const std::string& text);
 /// Fails early, before hours of work, when an output's extension is not among `extensions`.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
 
+/// The same for hex meshes: the format by its name, or by the extension when the name is empty.
+void require_mesh_format(const std::string& path, const std::string& format = {});
+
+/// --format, of hex meshes.
+void add_format_option(CLI::App& cmd, std::string& format);
+
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Extensions of grid files.

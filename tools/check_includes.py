@@ -26,7 +26,7 @@ ALLOWED = {
 ROOMS = {
     "geometry": ["frame", "tree", "prepare", "features", "walls"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
-    "io": ["text", "surface", "mesh", "grid"],
+    "io": ["text", "surface", "sets", "solver", "mesh", "grid"],
     "fit": ["carve", "curves", "sheets"],
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.

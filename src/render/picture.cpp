@@ -83,7 +83,7 @@ float line_share_of(const VisibleFace& visible) { return visible.is_boundary ? 0
 float line_share(const std::array<ScreenPoint, 4>& c) {
   double perimeter = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    perimeter += std::hypot(c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y);
+    perimeter += norm(Vec3{c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y, 0});
   return static_cast<float>(std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
 }
 

@@ -35,7 +35,7 @@ struct ScreenLine {
   double a = 0, b = 0, c = 0;
   ScreenLine() = default;
   ScreenLine(const ScreenPoint& p, const ScreenPoint& q) {
-    const double length = std::hypot(q.x - p.x, q.y - p.y);
+    const double length = norm({q.x - p.x, q.y - p.y, 0});
     if (length == 0) return;
     a = -(q.y - p.y) / length;
     b = (q.x - p.x) / length;

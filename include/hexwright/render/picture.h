@@ -44,6 +44,13 @@ struct PictureOptions {
   bool fade_boundary = true;
 };
 
+/// A view of the mesh cut open across an axis (0 to 2), at a place between the box's ends. Size and
+/// legend are the defaults.
+PictureOptions make_cut_view(int axis, double offset);
+
+/// Cut in the middle across the second longest of the box's sides.
+PictureOptions make_default_view(const HexMesh& mesh);
+
 /// RGB image, row by row from the top.
 struct Image {
   int width = 0, height = 0;
