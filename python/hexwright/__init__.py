@@ -8,7 +8,7 @@ from ._core import __version__
 from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, InvalidMesh, OutOfResources
 from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface
-from ._mesh import Facets, HexMesh, read
+from ._mesh import Facets, HexMesh, View, read
 from ._options import Option, options
 from ._stages import Verdict, check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
 
@@ -27,6 +27,7 @@ __all__ = [
     "Surface",
     "TetMesh",
     "Verdict",
+    "View",
     "__version__",
     "check",
     "complete",

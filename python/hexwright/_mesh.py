@@ -3,7 +3,10 @@ from __future__ import annotations
 
 import html
 import os
+import pathlib
 import re
+import tempfile
+import webbrowser
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import BadInput
-from ._inputs import PathLike, to_array
+from ._inputs import PathLike, SurfaceLike, as_surface, to_array
 
 if TYPE_CHECKING:
     from ._grid import Grid
@@ -209,6 +212,22 @@ class HexMesh:
         keywords = {"scalars": "scaled_jacobian", "show_edges": True, "cmap": "RdYlBu", **keywords}
         return self.to_pyvista().plot(**keywords)
 
+    def view(self, surface: SurfaceLike | None = None, title: str = "mesh") -> View:
+        """A page to look into the mesh with: cut, peel, filter by quality, worst hexes, patches by name.
+
+        In a notebook it is shown where it is made; elsewhere ``view().open()`` shows it in the browser and
+        ``view().save("part.html")`` keeps it. It needs no network.
+
+        Parameters
+        ----------
+        surface : path, pair of arrays or object, optional
+            What the mesh stands for: drawn over it, and the boundary can be coloured by its distance.
+        title : str
+            What the page calls the mesh.
+        """
+        given = None if surface is None else as_surface(surface)._core
+        return View(_core.view_page(self._core, given, title).decode())
+
     def __repr__(self) -> str:
         return f"<hexwright.HexMesh: {len(self.hexes)} hexes, {len(self.points)} points, {len(self.patches)} patches>"
 
@@ -225,6 +244,37 @@ class HexMesh:
         }
         cells = "".join(f"<tr><th>{k}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
         return f"<div>{to_png_tag(self)}<table>{cells}</table></div>"
+
+
+class View:
+    """A page to look into a mesh with, as :meth:`HexMesh.view` makes it.
+
+    Attributes
+    ----------
+    html : str
+        The whole page.
+    """
+
+    def __init__(self, page: str):
+        self.html = page
+
+    def save(self, path: PathLike) -> None:
+        """Writes the page."""
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            file.write(self.html)
+
+    def open(self) -> bool:
+        """Shows the page in the desktop's browser, from a new folder for temporary files; False where there is none."""
+        path = os.path.join(tempfile.mkdtemp(prefix="hexwright-"), "mesh.html")
+        self.save(path)
+        return webbrowser.open(pathlib.Path(path).as_uri())
+
+    def __repr__(self) -> str:
+        return f"<hexwright.View: {len(self.html) / 1e6:.1f} MB; save() or open() it>"
+
+    def _repr_html_(self) -> str:
+        style = "width:100%;height:640px;border:1px solid #ccc"
+        return f'<iframe srcdoc="{html.escape(self.html)}" style="{style}" title="hexwright"></iframe>'
 
 
 def _fill_names(names: list[str], count: int, kind: str) -> list[str]:

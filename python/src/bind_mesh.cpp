@@ -12,6 +12,7 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/render/picture.h"
+#include "hexwright/render/view_page.h"
 
 #include "arrays.h"
 #include "binders.h"
@@ -154,6 +155,21 @@ nb::object draw(const HexMesh& mesh, const std::string& cut, double at, int widt
   return give_values(std::move(image.rgb));
 }
 
+/// The page of `hexwright view`, in UTF-8.
+nb::bytes view_page(const HexMesh& mesh, const TriMesh* surface, const std::string& title) {
+  std::string page;
+  {
+    const nb::gil_scoped_release released;
+    std::optional<SurfaceTree> tree;
+    if (surface != nullptr) tree.emplace(*surface);
+    ViewOptions options;
+    options.title = title;
+    options.surface = tree ? &*tree : nullptr;
+    page = make_view_page(mesh, options);
+  }
+  return nb::bytes(page.data(), page.size());
+}
+
 void add_views(nb::class_<HexMesh>& type) {
   type.def_prop_ro("points", &points_of,
                    nb::sig("def points(self) -> numpy.typing.NDArray[numpy.float64]"))
@@ -185,6 +201,7 @@ void bind_mesh(nb::module_& module) {
       .def("facets", &facets_of)
       .def("curves", &curves_of);
   module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a);
+  module.def("view_page", &view_page, "mesh"_a, "surface"_a.none(), "title"_a);
   module.def(
       "read_mesh", [](const std::string& path) { return read_hex_mesh(path); }, "path"_a,
       nb::call_guard<nb::gil_scoped_release>());

@@ -245,3 +245,15 @@ def test_surfaces_keep_names(cube, tmp_path):
 def test_wrong_patches_are_refused(cube, patches, words):
     with pytest.raises(hw.BadInput, match=words):
         hw.mesh(*cube, patches=patches)
+
+
+def test_view_is_the_page_of_the_command_line(cube, cube_mesh, tmp_path):
+    page = cube_mesh.view(cube, title="<cube>")
+    assert "<title>&lt;cube></title>" in page.html and 'id="array-surface_tris"' in page.html
+    page.save(tmp_path / "cube.html")
+    assert (tmp_path / "cube.html").read_text(encoding="utf-8") == page.html
+    shown = page._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and shown.count("<") == 2, "the page is quoted as a whole"
+    assert 'id="array-surface_tris"' not in cube_mesh.view().html
+    with pytest.raises(hw.BadInput):
+        hw.HexMesh(np.zeros((8, 3)), np.zeros((0, 8), dtype=int)).view()

@@ -165,7 +165,7 @@ export class App {
 
   reset() {
     this.state = initialState(this.mesh);
-    history.replaceState(null, '', location.pathname + location.search);
+    if (location.hash) location.hash = '';  // not by history, which a page inside a notebook has not
     this.orbit.look('iso');
     this.refresh('hexes', 'lines');
   }
