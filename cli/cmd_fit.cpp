@@ -7,7 +7,7 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"

@@ -13,7 +13,7 @@
 #include "hexwright/pipeline/report.h"
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
