@@ -30,19 +30,22 @@ const char* name_of(std::optional<Balance> balance) {
   return *balance == Balance::Strong ? "strong" : *balance == Balance::Weak ? "weak" : "relaxed";
 }
 
-/// From the strictest to the weakest; each implies the next.
+/// From the strictest on. Strong balance implies the others; weak balance, which looks across faces
+/// alone, does not imply relaxed balance: three levels may meet at a vertex.
 constexpr std::array kBalances = {Balance::Strong, Balance::Weak, Balance::Relaxed};
 
 GridVerdict judge_grid(const Grid& grid, const GridCheck& check) {
   GridVerdict verdict;
   for (const Balance balance : kBalances) {
-    auto issue = find_unbalanced(grid, balance);
-    if (!issue) {
+    if (!find_unbalanced(grid, balance)) {
       verdict.balance = balance;
       break;
     }
-    if (balance == check.balance.value_or(Balance::Relaxed)) verdict.unbalanced = std::move(issue);
   }
+  if (check.balance)
+    verdict.unbalanced = find_unbalanced(grid, *check.balance);
+  else if (!verdict.balance)
+    verdict.unbalanced = find_unbalanced(grid, Balance::Relaxed);
   verdict.unpaired = find_unpaired(grid);
   if (!check.before.empty()) verdict.coarsened = find_coarsened(grid, read_grid(check.before));
 

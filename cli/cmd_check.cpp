@@ -4,11 +4,13 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_summary.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -35,7 +37,8 @@ bool is_grid(const std::string& path) {
   if (!has_extension(path, grid_extensions())) return false;
   try {
     return read_grid(path).num_cells() > 0;
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    if (e.code() == ErrorCode::Cancelled) throw;
     return false;
   }
 }
@@ -59,14 +62,30 @@ Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& progra
   return judge(mesh, SurfaceTree(std::move(prepared.mesh)), options, context);
 }
 
+/// As they would be written.
+std::vector<SetSummary> summarize_named_sets(const HexMesh& mesh) {
+  SetTable table = make_set_table(mesh);
+  name_by_place(mesh, table);
+  return summarize_sets(mesh, table);
+}
+
+std::string with_sets(const std::string& verdict, const std::vector<SetSummary>& sets) {
+  auto json = nlohmann::ordered_json::parse(verdict);
+  json["sets"] = nlohmann::ordered_json::parse(sets_to_json(sets));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void check_mesh(const CheckCommand& cmd, Program& program) {
   const HexMesh mesh = read_hex_mesh(cmd.input);
   const Verdict verdict = judge_mesh(cmd, mesh, program);
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, verdict_to_json(verdict));
+  const std::vector<SetSummary> sets = summarize_named_sets(mesh);
+  const std::string json = with_sets(verdict_to_json(verdict), sets);
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, json);
   if (cmd.as_json) {
-    std::puts(verdict_to_json(verdict).c_str());
+    std::puts(json.c_str());
   } else {
-    program.console.print(fmt::format("{}\n{}", cmd.input, verdict_to_text(verdict)));
+    program.console.print(
+        fmt::format("{}\n{}{}", cmd.input, sets_to_text(sets), verdict_to_text(verdict)));
   }
   if (cmd.as_json || program.console.is_quiet)  // otherwise the text has said so
     for (const std::string& f : verdict.failures) program.console.fail(cmd.input + ": " + f);
@@ -102,7 +121,7 @@ void add_check_command(CLI::App& app, Program& program) {
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
   sub->add_flag("--json", cmd->as_json, "Print the verdict as JSON");
   sub->add_option("--report", cmd->report, "Write the verdict as JSON");
-  add_feature_options(*sub, cmd->features);
+  add_options(*sub, make_option_table(cmd->features));
   add_feature_file_option(*sub, cmd->feature_file);
   add_grid_demands(*sub, *cmd);
   add_console_options(*sub, program);

@@ -77,7 +77,7 @@ void add_complete_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Grid: .cells, .htg, .vtu or .mesh with hanging nodes")
       ->required();
   sub->add_option("-o,--output", cmd->output, "Grid: .cells, .htg, .vtu or .mesh")->required();
-  add_complete_options(*sub, cmd->options);
+  add_options(*sub, make_option_table(cmd->options));
   sub->add_option("--solver", cmd->solver,
                   "For blocks: exact labelling per depth and descent (exact), an integer program "
                   "per depth (ilp), or one for all depths (global)")

@@ -19,8 +19,8 @@ namespace {
 
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
-  bool no_carve = false;
   FitOptions options;
+  std::vector<std::string> patches;
 };
 
 /// The result is judged as `check` would judge it, and decides the exit code.
@@ -31,11 +31,11 @@ void run(const FitCommand& cmd, Program& program) {
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
   const SurfaceTree tree = naming_file(cmd.surface, [&] {
-    PreparedSurface prepared = prepare_surface(surface, context);
+    PreparedSurface prepared =
+        prepare_surface(name_patches(TriMesh(surface), cmd.patches, program), context);
     return SurfaceTree(std::move(prepared.mesh));
   });
   FitOptions options = cmd.options;
-  options.do_carve = !cmd.no_carve;
   load_features(cmd.features, surface, options.features);
   const FitResult result =
       naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
@@ -69,9 +69,9 @@ void add_fit_command(CLI::App& app, Program& program) {
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
       ->required();
-  sub->add_flag("--no-carve", cmd->no_carve, "The mesh already stands for the object: only fit it");
-  add_fit_options(*sub, cmd->options);
+  add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   add_console_options(*sub, program);

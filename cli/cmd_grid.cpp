@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/pipeline/report.h"
@@ -17,7 +16,6 @@ namespace {
 
 struct GridCommand {
   std::string input, features, output, report;
-  bool no_loop = false;
   MeshOptions options;
 };
 
@@ -28,15 +26,9 @@ void run(const GridCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  if (cmd.no_loop) use_single_pass(options);
   load_features(cmd.features, surface, options.fit.features);
-  const SizingResult result = naming_file(cmd.input, [&] {
-    const PreparedSurface prepared = prepare_surface(surface, context);
-    const double diagonal = bounding_box(prepared.mesh).diagonal();
-    const FeatureGraph features =
-        extract_features(prepared.mesh, features_for_sizing(options.fit.features, diagonal));
-    return build_grid(prepared.mesh, features, options.sizing, context);
-  });
+  const SizingResult result =
+      naming_file(cmd.input, [&] { return size_surface(surface, options, context); });
   write_grid(cmd.output, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, sizing_to_json(result));
   program.console.print(fmt::format("{}: {} cells, levels to {}", cmd.output,
@@ -50,9 +42,7 @@ void add_grid_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("grid", "Adaptive grid of a surface (before completion)");
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Grid: .cells, .htg, .vtu or .mesh")->required();
-  add_sizing_options(*sub, cmd->options.sizing);
-  sub->add_flag("--no-loop", cmd->no_loop, "The stricter sizing of a single pass");
-  add_feature_options(*sub, cmd->options.fit.features);
+  add_options(*sub, make_grid_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   sub->add_option("--report", cmd->report, "Write counts as JSON");
   add_console_options(*sub, program);

@@ -57,12 +57,7 @@ void add_improve_command(CLI::App& app, Program& program) {
       ->required();
   sub->add_option("--slide-on", cmd->surface,
                   "Boundary vertices slide on this surface instead of staying");
-  sub->add_option("--rounds", cmd->options.max_rounds, "At most so many rounds")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  sub->add_option("--goal", cmd->options.goal, "Stop at this least scaled Jacobian")
-      ->check(CLI::Range(-1.0, 1.0))
-      ->capture_default_str();
+  add_options(*sub, make_option_table(cmd->options));
   add_console_options(*sub, program);
   sub->footer("Example:\n  hexwright improve in.vtk -o out.vtk --slide-on part.stl");
   sub->callback([cmd, &program] { run(*cmd, program); });

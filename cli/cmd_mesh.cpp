@@ -21,7 +21,7 @@ namespace {
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
   std::string input, output, format, report, picture, grid, features;
-  bool no_loop = false;
+  std::vector<std::string> patches;
   MeshOptions options;
 };
 
@@ -42,12 +42,12 @@ void run(const MeshCommand& cmd, Program& program) {
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
   require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
-  const TriMesh surface = load_surface(cmd.input, program);
+  const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  if (cmd.no_loop) use_single_pass(options);
   // Grid files have no axes of their own.
   if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
-  load_features(cmd.features, surface, options.fit.features);
+  load_features(cmd.features, as_read, options.fit.features);
+  const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
@@ -74,29 +74,9 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
       ->required();
-  add_sizing_options(*sub, cmd->options.sizing);
-  // A level asked for binds the loop too.
-  sub->get_option("--max-level")->each([cmd](const std::string&) {
-    cmd->options.loop_extra_levels = 0;
-  });
-  add_placement_option(*sub, cmd->options);
-  sub->add_flag("--no-loop", cmd->no_loop,
-                "A single pass with a stricter a-priori sizing, instead of refining where the fit "
-                "missed");
-  sub->add_option("--transition-cost", cmd->options.even.transition_cost,
-                  "What a cell beside another level counts more than one that is not, when levels "
-                  "are evened out; 0 = never even out")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  sub->add_option("--rounds", cmd->options.max_rounds, "At most so many refinements")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  sub->add_option("--max-hexes", cmd->options.max_hexes, "Budget of the background mesh")
-      ->check(whole_count())
-      ->capture_default_str();
-  add_complete_options(*sub, cmd->options.complete);
-  add_fit_options(*sub, cmd->options.fit);
+  add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
   add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

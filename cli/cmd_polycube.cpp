@@ -24,8 +24,7 @@ namespace {
 
 struct PolycubeCommand {
   std::string object, polycube, output, report, picture, grid;
-  double max_edge = 0;  // share of the diagonal
-  bool ignores_distance = false;
+  double max_edge = 0;                       // share of the diagonal
   std::vector<std::array<double, 7>> boxes;  // low corner, high corner, edge length; world units
   PolycubeOptions options;
 };
@@ -113,7 +112,6 @@ void run(const PolycubeCommand& cmd, Program& program) {
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
   PolycubeOptions options = cmd.options;
   options.max_edge = make_size_field(cmd, object);
-  if (cmd.ignores_distance) options.max_surface_error = 0;
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
   JudgeOptions judge_options;
@@ -134,15 +132,13 @@ void run(const PolycubeCommand& cmd, Program& program) {
 void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
   sub.add_option_function<std::string>(
       "--max-edge",
-      [&cmd](const std::string& text) { cmd.max_edge = parse_share("--max-edge", text); },
+      [&cmd](const std::string& text) { cmd.max_edge = read_share("--max-edge", text); },
       "Split cells whose edges on the object are longer than this share of the diagonal");
   sub.add_option_function<std::vector<std::array<double, 7>>>(
          "--size-box",
          [&cmd](const std::vector<std::array<double, 7>>& boxes) { cmd.boxes = boxes; },
          "Longest edge inside a box of the object: x0 y0 z0 x1 y1 z1 edge; may be repeated")
       ->type_name("BOX");
-  sub.add_flag("--ignore-distance", cmd.ignores_distance,
-               "Split by stretch and size alone, wherever the surface ends up");
 }
 
 }  // namespace
@@ -154,39 +150,8 @@ void add_polycube_command(CLI::App& app, Program& program) {
   sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
       ->required();
-  sub->add_option_function<std::string>(
-         "--max-stretch",
-         [cmd](const std::string& text) {
-           cmd->options.max_stretch = parse_share("--max-stretch", text);
-         },
-         "A cell is split while two object points in it are farther apart than this share of the "
-         "diagonal")
-      ->default_str("2%");
-  sub->add_option_function<std::string>(
-         "--max-surface-error",
-         [cmd](const std::string& text) {
-           cmd->options.max_surface_error = parse_share("--max-surface-error", text);
-         },
-         "Cells are split where the mesh would miss the surface by more than this share of the "
-         "diagonal, and again where it does")
-      ->default_str("0.3%");
+  add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);
-  sub->add_option("--rounds", cmd->options.max_rounds,
-                  "Meshes made at most; more than one only where the surface was missed")
-      ->check(CLI::Range(1, 20))
-      ->capture_default_str();
-  sub->add_flag(
-      "--pad", cmd->options.pad,
-      "Put a layer of hexes under the boundary: for polycube edges where the object is smooth");
-  sub->add_option("--spacing", cmd->options.spacing,
-                  "Edge of a lattice cube in polycube units; 0 derives it")
-      ->capture_default_str();
-  sub->add_option("--min-level", cmd->options.min_level)->check(CLI::Range(0, 12));
-  sub->add_option("--max-level", cmd->options.max_level)
-      ->check(CLI::Range(0, 12))
-      ->capture_default_str();
-  sub->add_option("--max-cells", cmd->options.max_cells)->capture_default_str();
-  add_complete_options(*sub, cmd->options.complete);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   sub->add_option("--save-grid", cmd->grid, "Write the grid on the polycube's lattice");

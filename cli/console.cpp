@@ -11,6 +11,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "hexwright/io/atomic_file.h"
@@ -21,8 +22,8 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-constexpr int kInterruptedCode = 4;       // as for Error{Cancelled}
-constexpr unsigned kSecondsToUnwind = 1;  // for stages that look at the flag seldom
+constexpr int kInterruptedCode = 4;                     // as for Error{Cancelled}
+constexpr suseconds_t kMicrosecondsToUnwind = 700'000;  // for steps that look at the flag seldom
 
 extern "C" void end_now(int) {
   remove_part_file();
@@ -33,7 +34,8 @@ extern "C" void end_now(int) {
 
 extern "C" void on_interrupt(int number) {
   if (interrupted.exchange(true)) end_now(number);
-  alarm(kSecondsToUnwind);
+  const itimerval once = {{0, 0}, {0, kMicrosecondsToUnwind}};
+  setitimer(ITIMER_REAL, &once, nullptr);
 }
 
 /// Messages that cannot be delivered never end a run; C streams, unlike fmt::print, do not throw.
@@ -47,6 +49,8 @@ bool is_terminal() {
 }
 
 }  // namespace
+
+const std::atomic<bool>* interrupt_flag() { return &interrupted; }
 
 /// Stages look at the flag at their next check and end with Error{Cancelled}; nothing is written
 /// then.

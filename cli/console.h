@@ -44,6 +44,9 @@ std::string to_one_line(std::string_view text);
 /// code 4. Signals about full disks and readers that left become errors of the writing call.
 void install_signal_handlers();
 
+/// Set by these signals. Loops of the library look at it within a CancelScope.
+const std::atomic<bool>* interrupt_flag();
+
 /// Occupies the numbers of closed standard streams, so that no output file gets one of them and
 /// is mixed with messages. What is written to such a stream is lost, as asked.
 void hold_standard_streams();

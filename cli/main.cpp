@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/version.h"
 
@@ -58,6 +59,7 @@ int run(Program& program, int argc, char** argv) {
   app.failure_message([](const CLI::App*, const CLI::Error& e) {
     return "error: " + to_one_line(e.what()) + "; --help shows what can be given\n";
   });
+  const CancelScope scope(interrupt_flag());
   try {
     app.parse(argc, argv);
     return program.exit_code;

@@ -3,11 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cstdlib>
 #include <filesystem>
-#include <map>
-#include <numbers>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -15,60 +11,56 @@
 #include <fmt/ranges.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/geometry/patch_rules.h"
 #include "hexwright/io/feature_io.h"
 #include "hexwright/io/mesh_io.h"
 
 namespace hexwright::cli {
 namespace {
 
-/// An option that takes one of a few names.
-template <class Enum>
-void add_choice(CLI::App& cmd, const std::string& name, Enum& value,
-                const std::map<std::string, Enum>& choices, const std::string& help) {
-  std::string names, fallback;
-  for (const auto& [text, choice] : choices) {
-    names += (names.empty() ? "" : "|") + text;
-    if (choice == value) fallback = text;
+/// What is written behind the option's name in the help.
+std::string type_name(const NamedOption& row) {
+  switch (row.kind) {
+    case OptionKind::Choice:
+      return row.allowed;
+    case OptionKind::Share:
+      return "SHARE";
+    case OptionKind::Degrees:
+      return "DEG";
+    default:
+      return "NUMBER, " + row.allowed;
   }
-  cmd.add_option_function<std::string>(
-         name,
-         [&value, choices, names, name](const std::string& text) {
-           const auto it = choices.find(text);
-           if (it == choices.end())
-             throw CLI::ValidationError(name, fmt::format("'{}' is none of {}", text, names));
-           value = it->second;
-         },
-         help + " [" + fallback + "]")
-      ->type_name(names);
+}
+
+/// What a value cannot be becomes an error of the command line that names the option.
+template <class Read>
+auto naming_option(const std::string& name, Read&& read) {
+  try {
+    return read();
+  } catch (const Error& e) {
+    throw CLI::ValidationError(name, e.what());
+  }
 }
 
 }  // namespace
 
-/// Signs, fractions, exponents and overflow are refused, which the parser alone would let through.
-CLI::Validator whole_count() {
-  const auto check = [](const std::string& text) {
-    std::uint64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc{} && stop == end && value > 0) return std::string();
-    return fmt::format("'{}' is no whole number from 1 up to 2^64; write digits only", text);
-  };
-  return {check, "COUNT"};
+double read_share(const std::string& option, const std::string& text) {
+  return naming_option(option, [&] { return parse_share(text); });
 }
 
-/// "0.5%" or "0.005"; a share of 1 or more is nearly always a forgotten percent sign.
-double parse_share(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) throw CLI::ValidationError(option, "'" + text + "' is not a number");
-  if (*end == '%') {
-    value /= 100;
-    ++end;
+void add_options(CLI::App& cmd, const OptionTable& table) {
+  for (const NamedOption& row : table) {
+    const std::string name = "--" + row.name;
+    const auto set = [name, set = row.set](const std::string& text) {
+      naming_option(name, [&] { set(text); });
+    };
+    if (row.kind == OptionKind::Flag)
+      cmd.add_flag_callback(
+          name, [set] { set("true"); }, row.help);
+    else
+      cmd.add_option_function<std::string>(name, set, row.help + " [" + row.fallback + "]")
+          ->type_name(type_name(row));
   }
-  if (*end != '\0' || !(value > 0) || !(value < 1))
-    throw CLI::ValidationError(
-        option, "'" + text + "' is not a share of the diagonal; write e.g. 0.5% or 0.005");
-  return value;
 }
 
 void add_console_options(CLI::App& cmd, Program& program) {
@@ -79,62 +71,6 @@ void add_console_options(CLI::App& cmd, Program& program) {
       ->capture_default_str();
 }
 
-void add_sizing_options(CLI::App& cmd, SizingOptions& options) {
-  add_choice(cmd, "--sizing", options.sizing,
-             {{"deviation", Sizing::Deviation}, {"thickness", Sizing::Thickness}},
-             "Where cells are fine: 'deviation' where the surface bends or walls are near, "
-             "'thickness' by the shape diameter alone");
-  cmd.add_option_function<std::string>(
-         "--tolerance",
-         [&options](const std::string& text) {
-           options.tolerance = parse_share("--tolerance", text);
-         },
-         "Distance goal as a share of the bounding box's diagonal, 0.5% or 0.005 [0.5%]")
-      ->type_name("SHARE");
-  cmd.add_option("--min-level", options.min_level, "Cells at the surface are at least this deep")
-      ->check(CLI::Range(0, kMaxGridLevel))
-      ->capture_default_str();
-  cmd.add_option("--max-level", options.max_level, "No cell is deeper")
-      ->check(CLI::Range(0, kMaxGridLevel))
-      ->capture_default_str();
-  cmd.add_option("--max-cells", options.max_cells,
-                 "Stop refining, at a whole level, before the grid has more cells")
-      ->check(whole_count())
-      ->capture_default_str();
-}
-
-void add_complete_options(CLI::App& cmd, CompleteOptions& options) {
-  add_choice(cmd, "--pairing", options.pairing,
-             {{"sheets", Pairing::Sheets},
-              {"blocks", Pairing::Blocks},
-              {"octree", Pairing::Octree},
-              {"none", Pairing::None}},
-             "How the grid is made hexmeshable");
-  add_choice(cmd, "--balance", options.balance,
-             {{"auto", Balance::Auto},
-              {"weak", Balance::Weak},
-              {"strong", Balance::Strong},
-              {"relaxed", Balance::Relaxed}},
-             "Cells sharing a face (weak) or also an edge or vertex (strong) differ by at most one "
-             "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak");
-}
-
-void add_placement_option(CLI::App& cmd, MeshOptions& options) {
-  add_choice(cmd, "--placement", options.placement,
-             {{"faces", Placement::Faces}, {"as-given", Placement::AsGiven}},
-             "The lattice along the part's faces, however they are turned (inside only), or along "
-             "the given axes");
-}
-
-void add_feature_options(CLI::App& cmd, FeatureOptions& options) {
-  cmd.add_option_function<double>(
-         "--feature-angle",
-         [&options](double degrees) { options.crease_angle = degrees * std::numbers::pi / 180; },
-         "Edges whose faces turn by more are sharp, degrees [50]")
-      ->check(CLI::Range(1.0, 180.0))
-      ->type_name("DEG");
-}
-
 void add_feature_file_option(CLI::App& cmd, std::string& file) {
   cmd.add_option("--features", file,
                  "Your own creases, besides those by angle: OBJ with 'l' lines, or text with two "
@@ -143,20 +79,6 @@ void add_feature_file_option(CLI::App& cmd, std::string& file) {
 
 void load_features(const std::string& file, const TriMesh& surface, FeatureOptions& options) {
   if (!file.empty()) options.extra_segments = read_feature_edges(file, surface);
-}
-
-void add_fit_options(CLI::App& cmd, FitOptions& options) {
-  add_choice(cmd, "--side", options.carve.side,
-             {{"inside", Side::Inside}, {"outside", Side::Outside}, {"both", Side::Both}},
-             "What to mesh: the object, the box around it, or both with two region tags");
-  add_choice(cmd, "--padding", options.padding,
-             {{"selective", Padding::Selective}, {"everywhere", Padding::Everywhere}},
-             "Where a layer of hexes is put under the boundary");
-  add_choice(cmd, "--vertices", options.patch_verts,
-             {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}},
-             "Vertices of curved patches: beside the surface, so that quads err to both sides of "
-             "it, or on it");
-  add_feature_options(cmd, options.features);
 }
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions) {
@@ -188,6 +110,37 @@ void require_mesh_format(const std::string& path, const std::string& format) {
 void add_format_option(CLI::App& cmd, std::string& format) {
   cmd.add_option("--format", format, "Format of the mesh, where the extension does not tell")
       ->check(CLI::IsMember(hex_mesh_formats()));
+}
+
+void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
+  cmd.add_option(
+         "--patch", rules,
+         "NAME=RULE names a part of the surface, such as inlet=plane:x<0.001; repeated, the "
+         "first that fits counts")
+      ->allow_extra_args(false)
+      ->check([](const std::string& rule) {
+        try {
+          parse_patch_rule(rule);
+          return std::string();
+        } catch (const Error& error) {
+          return std::string(error.what());
+        }
+      });
+}
+
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+  if (rules.empty()) return std::move(surface);
+  std::vector<PatchRule> parsed;
+  for (const std::string& rule : rules) {
+    parsed.push_back(parse_patch_rule(rule));
+    for (PatchCondition& condition : parsed.back().conditions)
+      if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
+  }
+  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    if (ruled.num_matched[r] == 0)
+      program.console.warn("--patch " + rules[r] + ": no part of the surface fits the rule");
+  return std::move(ruled.surface);
 }
 
 TriMesh load_surface(const std::string& path, Program& program) {

@@ -5,12 +5,9 @@
 
 #include <CLI/App.hpp>
 
-#include "hexwright/dual/dual_mesh.h"
-#include "hexwright/fit/fit.h"
-#include "hexwright/grid/complete.h"
-#include "hexwright/grid/sizing.h"
+#include "hexwright/geometry/feature_graph.h"
 #include "hexwright/io/surface_io.h"
-#include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/option_table.h"
 
 #include "commands.h"
 
@@ -19,17 +16,8 @@ namespace hexwright::cli {
 /// --quiet and --threads.
 void add_console_options(CLI::App& cmd, Program& program);
 
-/// --sizing, --tolerance, --min-level, --max-level, --max-cells.
-void add_sizing_options(CLI::App& cmd, SizingOptions& options);
-
-/// --pairing, --balance.
-void add_complete_options(CLI::App& cmd, CompleteOptions& options);
-
-/// --placement.
-void add_placement_option(CLI::App& cmd, MeshOptions& options);
-
-/// --feature-angle.
-void add_feature_options(CLI::App& cmd, FeatureOptions& options);
+/// The rows of a table as options of a subcommand. What the rows refer to must outlive the run.
+void add_options(CLI::App& cmd, const OptionTable& table);
 
 /// --features, a file of the user's own creases; load_features() reads it.
 void add_feature_file_option(CLI::App& cmd, std::string& file);
@@ -37,15 +25,8 @@ void add_feature_file_option(CLI::App& cmd, std::string& file);
 /// Adds the creases of a feature file to the options; an empty name adds none.
 void load_features(const std::string& file, const TriMesh& surface, FeatureOptions& options);
 
-/// --side, --padding, --feature-angle.
-void add_fit_options(CLI::App& cmd, FitOptions& options);
-
-/// Accepts whole numbers from 1 up. CLI11's own checks compare as doubles and let counts that do
-/// not fit saturate.
-CLI::Validator whole_count();
-
 /// A share of the diagonal: "0.5%" or "0.005". Throws CLI::ValidationError naming the option.
-double parse_share(const std::string& option, const std::string& text);
+double read_share(const std::string& option, const std::string& text);
 
 /// Fails early, before hours of work, when an output's extension is not among `extensions`.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
@@ -55,6 +36,13 @@ void require_mesh_format(const std::string& path, const std::string& format = {}
 
 /// --format, of hex meshes.
 void add_format_option(CLI::App& cmd, std::string& format);
+
+/// --patch, rules that name parts of the surface.
+void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
+
+/// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
+/// meets.
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 

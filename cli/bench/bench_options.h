@@ -13,7 +13,7 @@ namespace hexwright::cli {
 
 struct BenchOptions {
   EvaluateOptions evaluate = default_evaluate_options();
-  bool no_dual = false, no_mesh = false, no_pictures = false;
+  bool no_pictures = false;
   int picture_width = 360;  ///< pixels; the height is 5/6 of it
 };
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/io/atomic_file.h"
 
 #include "bench/bench_options.h"
@@ -114,6 +115,7 @@ void evaluate_folder(const BenchCommand& cmd, Program& program) {
                                         record["model"].get<std::string>(), describe(record)));
     });
   } catch (const Error&) {
+    const CancelScope scope(nullptr);  // an interrupt ends the models, not their results
     write_results(cmd, all);  // what is finished is kept; the same command goes on from there
     throw;
   }

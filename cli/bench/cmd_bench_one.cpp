@@ -73,8 +73,6 @@ void run(BenchOneCommand& cmd, Program& program) {
   end_with_parent(cmd.parent);
   limit_own_memory(cmd.memory);
   EvaluateOptions& options = cmd.options.evaluate;
-  options.run_dual = !cmd.options.no_dual;
-  options.run_mesh = !cmd.options.no_mesh;
 
   Json head = {{"schema", 1}, {"model", cmd.name}, {"key", cmd.key}, {"status", kRunning}};
   Illustrator illustrator(cmd);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "hexwright/base/error.h"
 #include "hexwright/io/atomic_file.h"
@@ -38,6 +39,36 @@ std::uint64_t hash(std::string_view text, std::uint64_t state = 0xcbf29ce4842223
   return state;
 }
 
+/// Folders that cannot be searched are entries of their own: their records say so.
+bool is_entry(const fs::directory_entry& entry) {
+  if (has_extension(entry.path().string(), kSurfaceExtensions)) return true;
+  std::error_code ignored;
+  return entry.is_directory(ignored) && access(entry.path().c_str(), R_OK | X_OK) != 0;
+}
+
+/// Whatever cannot be read has the key of nothing; devices and pipes are not waited for.
+std::string read_if_regular(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? read_if_possible(file) : "";
+}
+
+/// Names too long for a file with extensions behind them are cut, and told apart by their hash.
+std::string to_file_name(const fs::path& name) {
+  constexpr std::size_t kLongest = 200, kKept = 160;  // bytes; file systems allow 255
+  const std::string text = name.string();
+  if (text.size() <= kLongest) return text;
+  std::size_t cut = kKept;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;  // UTF-8
+  return fmt::format("{}-{:016x}", text.substr(0, cut), hash(text));
+}
+
+/// The path within a result folder that stands for a model's name.
+fs::path to_result_path(const std::string& name) {
+  fs::path path;
+  for (const fs::path& part : fs::path(name)) path /= to_file_name(part);
+  return path;
+}
+
 }  // namespace
 
 std::string file_hash(const fs::path& file) {
@@ -45,16 +76,15 @@ std::string file_hash(const fs::path& file) {
 }
 
 std::vector<BenchModel> find_models(const fs::path& folder, const std::string& fingerprint) {
-  if (!fs::is_directory(folder))
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
     throw Error(ErrorCode::CannotOpen, "is not a folder of models", folder.string());
   std::vector<BenchModel> models;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, options)) {
-    if (!has_extension(entry.path().string(), kSurfaceExtensions)) continue;
-    std::error_code error;  // links in a circle: the model's own record says so
-    if (!entry.is_regular_file(error) && !error) continue;
-    const std::uint64_t key = hash(read_if_possible(entry.path()), hash(fingerprint));
-    models.push_back({entry.path(), fs::relative(entry.path(), folder).generic_string(),
+    if (!is_entry(entry)) continue;
+    const std::uint64_t key = hash(read_if_regular(entry.path()), hash(fingerprint));
+    models.push_back({entry.path(), entry.path().lexically_relative(folder).generic_string(),
                       fmt::format("{:016x}", key)});
   }
   std::sort(models.begin(), models.end(),
@@ -63,17 +93,17 @@ std::vector<BenchModel> find_models(const fs::path& folder, const std::string& f
 }
 
 fs::path record_file(const fs::path& out, const std::string& name) {
-  return out / "records" / (name + ".json");
+  fs::path file = out / "records" / to_result_path(name);
+  return file += ".json";
 }
 
 fs::path picture_file(const fs::path& out, const std::string& name, const std::string& part) {
-  return out / "pictures" / (name + "." + part + ".png");
+  fs::path file = out / "pictures" / to_result_path(name);
+  return file += "." + part + ".png";
 }
 
 Json load_record(const fs::path& out, const BenchModel& model) {
-  const fs::path file = record_file(out, model.name);
-  if (!fs::exists(file)) return {};
-  Json record = Json::parse(read_text(file), nullptr, false);
+  Json record = Json::parse(read_if_regular(record_file(out, model.name)), nullptr, false);
   if (!record.is_object() || record.value("key", "") != model.key) return {};
   return record;
 }

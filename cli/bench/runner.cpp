@@ -1,6 +1,7 @@
 #include "bench/runner.h"
 
 #include <chrono>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <list>
@@ -79,6 +80,14 @@ Json finish_job(Job& job, const RunnerOptions& options) {
   return record;
 }
 
+/// The record of a model whose process could not be started: the rest goes on.
+Json refuse_job(const BenchModel& model, const RunnerOptions& options, const std::string& why) {
+  const Json record = {{"schema", 1},         {"model", model.name}, {"key", model.key},
+                       {"status", "crashed"}, {"message", why},      {"wall_seconds", 0.0}};
+  save_record(options.out, model.name, record);
+  return record;
+}
+
 }  // namespace
 
 void run_models(const std::vector<BenchModel>& models, const RunnerOptions& options,
@@ -87,8 +96,14 @@ void run_models(const std::vector<BenchModel>& models, const RunnerOptions& opti
   std::size_t next = 0;
   while (next < models.size() || !running.empty()) {
     context.check_cancelled();  // the processes end with the list
-    while (next < models.size() && running.size() < static_cast<std::size_t>(options.jobs))
-      running.push_back(start_job(models[next++], options));
+    while (next < models.size() && running.size() < static_cast<std::size_t>(options.jobs)) {
+      const BenchModel& model = models[next++];
+      try {
+        running.push_back(start_job(model, options));
+      } catch (const std::exception& e) {
+        on_finished(refuse_job(model, options, e.what()));
+      }
+    }
     for (auto job = running.begin(); job != running.end();) {
       const bool has_ended = job->process->has_ended();
       if (!has_ended && job->process->seconds() > options.seconds_per_model) {

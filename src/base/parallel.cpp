@@ -7,6 +7,8 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include "hexwright/base/cancel.h"
+
 namespace hexwright {
 
 struct ThreadLimit::Impl {
@@ -32,7 +34,10 @@ void parallel_chunks(std::size_t count, std::size_t grain,
                      FunctionRef<void(std::size_t, std::size_t)> body) {
   if (count == 0) return;
   const std::size_t num_chunks = (count + grain - 1) / grain;
+  const std::atomic<bool>* const flag = CancelScope::flag();
   const auto run_chunk = [&](std::size_t chunk) {
+    const CancelScope scope(flag);
+    check_cancelled();
     body(chunk * grain, std::min(count, (chunk + 1) * grain));
   };
   if (num_chunks == 1 || num_threads() == 1) {

@@ -76,6 +76,7 @@ DualResult build_once(const Grid& grid, const DualOptions& options, const Contex
 }  // namespace
 
 std::size_t count_dual_hexes(const Grid& grid, DualMode mode, const Context& context) {
+  const auto watch = context.watch();
   Grid used_grid;
   return build_complex(grid, mode, context, used_grid).num_hexes();
 }
@@ -84,6 +85,7 @@ std::size_t count_dual_hexes(const Grid& grid, DualMode mode, const Context& con
 // are the one case known that leaves inverted elements. Over roots of half the edge all corners
 // have even coordinates, and one parity avoids them all.
 DualResult build_dual(const Grid& grid, const DualOptions& options, const Context& context) {
+  const auto watch = context.watch();
   Grid used_grid;
   DualResult result = build_once(grid, options, context, used_grid);
   for (int halvings = 0; options.optimize && result.report.min_scaled_jacobian <= 0 &&

@@ -356,6 +356,7 @@ class Fitter {
 
 FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
               const Context& context) {
+  const auto watch = context.watch();
   require_consistent(options);
   return Fitter(surface, options, context).run(background);
 }

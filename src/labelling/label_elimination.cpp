@@ -10,6 +10,8 @@
 #include <iterator>
 #include <set>
 
+#include "hexwright/base/cancel.h"
+
 #include "labelling/label_graph.h"
 
 namespace hexwright::labelling {
@@ -153,6 +155,7 @@ class Elimination {
   /// Minimises over a bucket's node; its cheapest completion becomes a factor over its neighbours.
   /// Returns the constant part when there are none.
   std::int64_t eliminate(Bucket& bucket) {
+    check_cancelled();
     const std::vector<std::int64_t> joint = make_joint(bucket.node, bucket.scope);
     const std::size_t num_own = labels_[bucket.node].size();
     Factor message{bucket.scope, {}};

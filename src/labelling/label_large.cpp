@@ -8,6 +8,8 @@
 // combinatorial search area with convex relaxation", NIPS 2013, for the labels left out.
 #include <algorithm>
 
+#include "hexwright/base/cancel.h"
+
 #include "labelling/label_messages.h"
 
 namespace hexwright::labelling {
@@ -135,6 +137,7 @@ SearchResult solve_large_group(const LabelGraph& graph, const Labelling& start,
   const int last_pass = num_passes(messages);
   int next_dive = kFirstDive;
   for (int pass = 1; pass <= last_pass && !is_proven(out); ++pass) {
+    check_cancelled();
     const bool is_forward = pass % 2 == 0;
     const std::int64_t bound =
         messages.pass(is_forward) ? messages.bound() * kLeafCost : out.best.cost;

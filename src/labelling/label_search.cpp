@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hexwright/base/cancel.h"
+
 #include "labelling/label_graph.h"
 
 namespace hexwright::labelling {
@@ -88,7 +90,9 @@ class BranchAndBound {
   /// Depth-first without recursion: groups can be thousands of clusters deep.
   void descend() {
     std::vector<Frame> stack = {open(order_[0], 0)};
+    CancelCheck check_cancelled;
     while (!stack.empty() && num_nodes_ < max_nodes_) {
+      check_cancelled();
       Frame& f = stack.back();
       const std::size_t depth = stack.size() - 1;
       const std::uint32_t node = order_[depth];

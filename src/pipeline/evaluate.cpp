@@ -90,6 +90,7 @@ double MethodRecord::relative_growth() const {
 ModelRecord evaluate_model(const TriMesh& surface, const EvaluateOptions& options,
                            const Context& context,
                            const std::function<void(const ModelRecord&)>& on_part) {
+  const auto watch = context.watch();
   ModelRecord record;
   record.num_verts = surface.num_verts();
   record.num_tris = surface.num_tris();

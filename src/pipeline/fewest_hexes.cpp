@@ -8,6 +8,7 @@ namespace hexwright {
 // that the block would have split anyway. Only the count tells which is fewer.
 CompleteResult complete_with_fewest_hexes(const Grid& grid, const CompleteOptions& options,
                                           const Context& context) {
+  const auto watch = context.watch();
   CompleteResult sheets = complete(grid, options, context);
   if (options.pairing != Pairing::Sheets) return sheets;
   CompleteOptions by_blocks = options;

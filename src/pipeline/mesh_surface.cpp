@@ -170,6 +170,7 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const Context& caller) {
   const Stopwatch clock;
+  const auto watch = caller.watch();
   MeshResult result;
   const Context context = collect_warnings(caller, result.warnings);
 

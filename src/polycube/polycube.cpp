@@ -211,6 +211,7 @@ class Mesher {
 
 PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_in,
                              const PolycubeOptions& options, const Context& context) {
+  const auto watch = context.watch();
   check_pair(object_in, polycube_in);
   TetMesh object = object_in, polycube = polycube_in;
   orient(object, polycube);

@@ -78,6 +78,7 @@ void warn_of_other_place(Verdict& verdict) {
 }  // namespace
 
 Verdict judge(const HexMesh& mesh, const JudgeOptions&, const Context& context) {
+  const auto watch = context.watch();
   Verdict verdict = judge_mesh(mesh, context);
   context.progress("check", 1);
   return verdict;
@@ -85,6 +86,7 @@ Verdict judge(const HexMesh& mesh, const JudgeOptions&, const Context& context) 
 
 Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOptions& options,
               const Context& context) {
+  const auto watch = context.watch();
   Verdict verdict = judge_mesh(mesh, context);
   context.check_cancelled();
   context.progress("check", 0.5);

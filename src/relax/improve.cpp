@@ -172,6 +172,7 @@ class Improver {
 }  // namespace
 
 ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Context& context) {
+  const auto watch = context.watch();
   if (const auto issue = mesh.find_problem()) throw Error(ErrorCode::BadArgument, issue->message);
   if (mesh.num_hexes() == 0) return {};
   return Improver(mesh, options, context).run();

@@ -72,6 +72,23 @@ class Runs(BenchTest):
         self.assertNotRegex(page, r"""(src|href)\s*=\s*["']https?:""")
         self.assertNotIn("/*DATA*/", page)
 
+    def test_odd_entries_are_one_record_each(self):
+        """Links in a circle, names at the limit, folders and pipes that are called like models."""
+        (self.models / "l1.obj").symlink_to("l2.obj")
+        (self.models / "l2.obj").symlink_to("l1.obj")
+        long_name = "x" * 250 + ".obj"
+        (self.models / long_name).write_text(CUBE)
+        (self.models / "folder.stl").mkdir()
+        os.mkfifo(self.models / "pipe.ply")
+        (self.out / "records").mkdir(parents=True)
+        (self.out / "records" / "cube.obj.json").write_text('{"model": "cu')
+        self.run_bench(self.models, "-o", self.out, *QUICK, "--no-mesh", "--no-pictures")
+        records = load(self.out)
+        odd = {"l1.obj", "l2.obj", "folder.stl", "pipe.ply"}
+        self.assertEqual(set(records), {"cube.obj", "deeper/cube.obj", long_name} | odd)
+        for name, record in records.items():
+            self.assertEqual(record["status"], "failed" if name in odd else "done", record)
+
     def test_finished_models_are_kept_until_options_or_files_change(self):
         self.run_bench(self.models, "-o", self.out, *QUICK, "--no-mesh")
         files = [self.out / "records" / n for n in ("cube.obj.json", "deeper/cube.obj.json")]

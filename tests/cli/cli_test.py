@@ -168,7 +168,7 @@ class Mesh(CliTest):
             self.assertEqual(*outputs)
 
     def test_every_format_reads_back(self):
-        for extension in ("vtu", "vtk", "mesh"):
+        for extension in ("vtu", "vtk", "mesh", "msh", "msh2", "inp"):
             out = self.path / f"a.{extension}"
             self.run_binary("mesh", self.cube, "-o", out, *COARSE)
             self.run_binary("check", out, self.cube)
@@ -239,6 +239,24 @@ class Stages(CliTest):
         self.assertIn("--pairing blocks", done.stderr)
         self.assertIn("--grid", self.run_binary("check", paired, expect=1).stderr)
 
+    def test_three_levels_at_a_vertex_are_no_obstacle_for_sheets(self):
+        """Weak balance looks across faces alone; what 'complete' makes under it, 'dual' takes."""
+        grid, sheets = self.path / "g.cells", self.path / "s.cells"
+        lines, node, level = [], (0, 0, 0), 1  # one octant, refined towards the middle of the cube
+        lines += ["1 %d %d %d" % (i & 1, i >> 1 & 1, i >> 2) for i in range(1, 8)]
+        while level < 5:
+            children = [tuple(2 * node[a] + (q >> a & 1) for a in range(3)) for q in range(8)]
+            level, node = level + 1, children[7]
+            lines += ["%d %d %d %d" % (level, *c) for c in (children if level == 5 else children[:7])]
+        grid.write_text("\n".join(lines) + "\n")
+        self.run_binary("complete", grid, "-o", sheets, "--pairing", "sheets", "--balance", "weak")
+        checked = self.run_binary("check", sheets).stdout
+        self.assertRegex(checked, r"balance +weak")
+        self.assertRegex(checked, r"pairing +none")
+        self.run_binary("check", sheets, "--balance", "relaxed", expect=1)
+        self.run_binary("dual", sheets, "-o", self.path / "h.mesh")
+        self.run_binary("check", self.path / "h.mesh")
+
     def test_convert_keeps_meshes_surfaces_and_grids(self):
         hexes = self.path / "h.vtu"
         self.run_binary("mesh", self.cube, "-o", hexes, *COARSE)
@@ -262,6 +280,53 @@ class Stages(CliTest):
         self.assertGreaterEqual(after, before)
 
 
+class Names(CliTest):
+    def sets(self, mesh):
+        data = json.loads(self.run_binary("check", mesh, "--json").stdout)
+        return {s["name"]: s for s in data["sets"]}
+
+    def test_groups_of_the_file_become_patches_of_every_format(self):
+        named = self.path / "named.obj"
+        faces = CUBE.splitlines()
+        lines = [l for l in faces if l.startswith("v")]
+        for name, group in (("in let", faces[8:9]), ("rest", faces[9:])):
+            lines += ["g " + name, *group]
+        named.write_text("\n".join(lines))
+        report = self.path / "r.json"
+        done = self.run_binary("mesh", named, "-o", self.path / "a.inp", "--report", report, *COARSE)
+        self.assertIn("'in let' is called 'in_let'", done.stderr)
+        data = json.loads(report.read_text())
+        self.assertIn({"given": "in let", "written": "in_let"}, data["changed_names"])
+        self.assertEqual([s["elements"] for s in data["sets"] if s["name"] == "rest"],
+                         [sum(s["elements"] for s in data["sets"] if s["name"].startswith("rest."))])
+        found = self.sets(self.path / "a.inp")
+        self.assertAlmostEqual(found["in_let"]["area"], 1, places=5)
+        self.assertEqual([round(x) for x in found["in_let"]["normal"]], [-1, 0, 0])
+        self.run_binary("convert", self.path / "a.inp", self.path / "polyMesh")
+        self.assertIn("    in_let\n", (self.path / "polyMesh/boundary").read_text())
+        self.run_binary("convert", self.path / "a.inp", self.path / "b.mesh", "--format", "mfem")
+        self.assertTrue((self.path / "b.mesh").read_text().startswith("MFEM mesh v1.3"))
+
+    def test_rules_name_parts_and_places_name_the_rest(self):
+        out = self.path / "a.msh"
+        self.run_binary("mesh", self.cube, "-o", out, *COARSE, "--patch", "inlet=plane:x<0", "--patch",
+                        "half=plane:z=1&plane:y<0.5")
+        found = self.sets(out)
+        self.assertAlmostEqual(found["inlet"]["area"], 1, places=5)
+        self.assertAlmostEqual(found["half"]["area"], 0.5, places=3)
+        self.assertAlmostEqual(found["patch_zmin"]["area"], 1, places=5)
+        self.assertEqual(found["inlet"]["normal"], [-1, 0, 0])
+        text = self.run_binary("check", out).stdout
+        self.assertRegex(text, r"patch +inlet: \d+ quads, area 1, at \(0 0.5\d* 0.5\d*\), normal \(-1 0 0\)")
+
+    def test_wrong_rules_and_formats_are_bad_usage(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--patch", "inlet=plane:w<0", expect=2)
+        self.assertIn("inlet=plane:x<0.001", done.stderr)
+        self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--format", "nonsense", expect=2)
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE, "--patch", "no=plane:x>5")
+        self.assertIn("no part of the surface", done.stderr)
+
+
 class Check(CliTest):
     HEX = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{}\nHexahedra\n1\n1 2 4 3 5 6 8 7 0\nEnd\n"
     CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -281,6 +346,28 @@ class Check(CliTest):
         done = self.run_binary("check", self.write_hex(mirrored), "--report", self.path / "r.json", expect=1)
         self.assertIn("inverted", done.stdout)
         self.assertFalse(json.loads((self.path / "r.json").read_text())["valid"])
+
+
+class Baseline(CliTest):
+    """Every pairing and balance of the shared baseline grids: the program accepts what its own stages make."""
+    GRIDS = SOURCE.parent / "shared" / "baseline" / "grids"
+    COMPLETIONS = [("blocks", "weak"), ("blocks", "strong"), ("octree", "weak"), ("octree", "strong"),
+                   ("sheets", "weak"), ("sheets", "strong"), ("sheets", "relaxed")]
+
+    def test_every_completion_is_taken_by_the_dual(self):
+        if not self.GRIDS.exists():
+            self.skipTest(f"needs the shared collection of grids beside the project ({self.GRIDS})")
+        grids = sorted(self.GRIDS.glob("*.cells"))
+        self.assertEqual(len(grids), 30)
+        paired, hexes = self.path / "p.cells", self.path / "h.mesh"
+        for grid in grids:
+            for pairing, balance in self.COMPLETIONS:
+                with self.subTest(grid=grid.stem, pairing=pairing, balance=balance):
+                    self.run_binary("complete", grid, "-o", paired, "--pairing", pairing, "--balance", balance)
+                    self.run_binary("check", paired, grid, "--grid", "--balance", balance,
+                                    *(["--blocks"] if pairing != "sheets" else []))
+                    self.run_binary("dual", paired, "-o", hexes, "--no-optimize",
+                                    "--mode", "sheets" if pairing == "sheets" else "blocks")
 
 
 class Surroundings(CliTest):
@@ -316,6 +403,50 @@ class Surroundings(CliTest):
         self.assertEqual(code, 4)
         self.assertIn("File too large", message)
         self.assertEqual(self.files(), ["cube.obj"])
+
+    def test_a_signal_ends_any_command_within_a_second(self):
+        """At any moment: while reading, working or writing. Nothing is left, also of the files written aside."""
+        big, hexes, out = self.path / "big.obj", self.path / "big.mesh", self.path / "out"
+        out.mkdir()
+        n = 400
+        points = "".join(f"v {x / n} {y / n} {(x * y) % 7 / 7}\n" for y in range(n) for x in range(n))
+        faces = "".join(f"f {y * n + x + 1} {y * n + x + 2} {y * n + x + n + 2} {y * n + x + n + 1}\n"
+                        for y in range(n - 1) for x in range(n - 1))
+        big.write_text(points + faces)
+        grid = self.path / "fine.cells"
+        grid.write_text("".join(f"6 {x} {y} {z}\n" for x in range(64) for y in range(64) for z in range(64)))
+        self.run_binary("dual", grid, "-o", hexes, "--no-optimize")
+        before = self.files()
+        for arguments in (["convert", big, out / "a.ply"], ["convert", hexes, out / "a.vtu"], ["check", hexes],
+                          ["check", grid, grid, "--grid"], ["complete", grid, "-o", out / "a.cells"],
+                          ["dual", grid, "-o", out / "a.mesh"], ["improve", hexes, "-o", out / "a.mesh"],
+                          ["mesh", big, "-o", out / "a.vtu"], ["grid", big, "-o", out / "a.cells"],
+                          ["picture", hexes, "-o", out / "a.png"], ["fit", hexes, self.cube, "-o", out / "a.vtu"]):
+            for number, delay in ((signal.SIGTERM, 0.02), (signal.SIGINT, 0.2), (signal.SIGTERM, 0.6)):
+                process = subprocess.Popen([str(BINARY), *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                           stderr=subprocess.PIPE, text=True)
+                time.sleep(delay)
+                process.send_signal(number)
+                start = time.monotonic()
+                _, errors = process.communicate(timeout=60)
+                waited = time.monotonic() - start
+                if process.returncode == -number and delay < 0.1:
+                    continue  # before the program had begun
+                self.assertIn(process.returncode, (0, 1, 4), f"{arguments} {errors}")
+                self.assertLess(waited, 5, arguments)  # a second, on a machine that is not overbooked
+                if process.returncode != 4:
+                    continue  # it was done before
+                self.assertRegex(errors, r"error: cancelled", arguments)
+                self.assertEqual([p.name for p in out.iterdir() if p.suffix == ".part"], [])
+            for left in out.iterdir():
+                left.unlink()
+        self.assertEqual(self.files(), before)
+
+    def test_what_a_killed_run_left_is_removed_by_the_next(self):
+        left = self.path / ".out.vtk.0.part"
+        left.write_text("half a mesh")
+        self.run_binary("mesh", self.cube, "-o", self.path / "out.vtk", *COARSE)
+        self.assertEqual(self.files(), ["cube.obj", "out.vtk"])
 
     def test_names_of_any_bytes_reach_the_report(self):
         model = bytes(self.path) + b"/n\xff.obj"

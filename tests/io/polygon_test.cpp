@@ -186,5 +186,59 @@ TEST(Triangulate, PolygonsStayInTheOrderOfTheFile) {
   EXPECT_EQ(next, mesh.num_tris());
 }
 
+/// A comb: teeth between which nothing is seen from afar.
+Polygon comb_polygon(int num_teeth) {
+  Polygon polygon = {{0, -1, 0}, {double(num_teeth), -1, 0}};
+  for (int i = num_teeth; i-- > 0;) {
+    polygon.push_back({i + 0.6, 100, 0});
+    polygon.push_back({i + 0.4, 100, 0});
+    polygon.push_back({i + 0.0, 0, 0});
+  }
+  return polygon;
+}
+
+/// A square corridor that winds inwards, and back: few corners are ears at any time.
+Polygon square_spiral(int num_turns) {
+  Polygon polygon, back;
+  const std::array<Vec3, 4> ways = {Vec3{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
+  for (int i = 0; i < 4 * num_turns; ++i) {
+    const double radius = num_turns - i / 4.0;
+    polygon.push_back(ways[std::size_t(i) % 4] * (radius + 0.2));
+    back.push_back(ways[std::size_t(i) % 4] * (radius - 0.2));
+  }
+  polygon.insert(polygon.end(), back.rbegin(), back.rend());
+  return polygon;
+}
+
+// Tens of thousands of vertices: an algorithm of quadratic time would take minutes here.
+TEST(Triangulate, LargePolygonsAreCoveredOnce) {
+  std::mt19937_64 random(57);
+  for (const Polygon& polygon :
+       {spiral_polygon(10'000), comb_polygon(10'000), square_spiral(3'000)}) {
+    const Frame frame = random_frame(random, 1);
+    const TriMesh mesh = triangulate(soup_of(polygon, frame, 0));
+    ASSERT_EQ(mesh.num_tris(), polygon.size() - 2);
+    double sum = 0, absolute = 0;
+    for (TriId t : mesh.tris.ids()) {
+      const auto c = mesh.corners(t);
+      const Vec3 n = cross(c[1] - c[0], c[2] - c[0]) * 0.5;
+      sum += dot(n, frame.z);
+      absolute += norm(n);
+    }
+    EXPECT_NEAR(sum / area_of(polygon), 1, 1e-9);
+    EXPECT_NEAR(absolute / area_of(polygon), 1, 1e-9) << "a triangle is turned over";
+  }
+}
+
+// Many vertices at a few places, as damaged files have them: still as many triangles, soon.
+TEST(Triangulate, CrowdedPolygonsComeToAnEnd) {
+  std::mt19937_64 random(58);
+  PolygonSoup soup;
+  for (int i = 0; i < 9; ++i) soup.positions.push_back(test::random_point(random));
+  for (int i = 0; i < 100'000; ++i) soup.verts.push_back(VertId(random() % 9));
+  soup.end_polygon();
+  EXPECT_EQ(triangulate(std::move(soup)).num_tris(), 99'998u);
+}
+
 }  // namespace
 }  // namespace hexwright::io

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
 namespace hexwright {
@@ -25,10 +26,16 @@ struct Context {
   void warn(std::string_view message) const {
     if (on_warning) on_warning(message);
   }
-  /// Throws Error{Cancelled} when the caller asked to stop.
+  /// Throws Error{Cancelled} when the caller asked to stop: by the flag of this context or, where
+  /// it has none, of the scope around (base/cancel.h).
   void check_cancelled() const {
-    if (cancel && cancel->load(std::memory_order_relaxed))
-      throw Error(ErrorCode::Cancelled, "cancelled by the caller");
+    const auto scope = watch();
+    hexwright::check_cancelled();
+  }
+  /// While the result lives, loops below look at the flag, or at that of the scope around when this
+  /// context has none.
+  [[nodiscard]] CancelScope watch() const {
+    return CancelScope(cancel ? cancel : CancelScope::flag());
   }
 };
 

@@ -32,7 +32,8 @@ int num_threads();
 
 /// Calls `body(begin, end)` for consecutive chunks of at most `grain` indices that cover 0 ..
 /// count-1, in any order and on any thread. Chunk borders are multiples of `grain`, whatever the
-/// number of threads.
+/// number of threads. Ends with Error{Cancelled} between chunks when the caller's flag is set
+/// (base/cancel.h).
 void parallel_chunks(std::size_t count, std::size_t grain,
                      FunctionRef<void(std::size_t begin, std::size_t end)> body);
 

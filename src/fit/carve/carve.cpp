@@ -215,6 +215,7 @@ void mend_topology(const SetScene& scene, const ExpectedTopology& expected,
 
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
                   const CarveOptions& options, const Context& context) {
+  const auto watch = context.watch();
   require_positive(options.keep_fraction);
   context.progress("carve", 0);
   const VertToHex vert_to_hex(background);

@@ -207,6 +207,7 @@ std::vector<std::string> describe(const SurfaceDiagnosis& d, const Orientation& 
 }  // namespace
 
 PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
+  const auto watch = context.watch();
   check_input(input);
   const TriMesh used = used_only(input);
   WorkingSurface work{to_unit(used, compute_unit_frame(used)), {}};

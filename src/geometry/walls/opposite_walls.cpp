@@ -96,6 +96,7 @@ double least_width(const RayScene& scene, const std::vector<ConeRay>& cone, cons
 
 std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
                                               const Context& context) {
+  const auto watch = context.watch();
   const RayScene scene(surface);
   const TriMesh& unit = scene.unit_surface();
   const double unit_spacing = scene.frame().length_to_unit(spacing);

@@ -51,6 +51,7 @@ double robust_mean(std::vector<WeightedLength>& lengths) {
 IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
                                                const ShapeDiameterOptions& options,
                                                const Context& context) {
+  const auto watch = context.watch();
   if (options.num_rays < 1 || !(options.cone_angle > 0) ||
       !(options.cone_angle <= std::numbers::pi))
     throw Error(ErrorCode::BadArgument,

@@ -86,6 +86,7 @@ NestedSets solve_hierarchy(const Grid& grid, const NestedSets& input, const IlpO
 }  // namespace
 
 IlpResult complete_by_ilp(const Grid& grid, const IlpOptions& options, const Context& context) {
+  const auto watch = context.watch();
   if (const auto issue = grid.find_problem())
     throw Error(ErrorCode::BadArgument, "complete_by_ilp: " + issue->message);
   if (options.balance == Balance::Relaxed)

@@ -112,6 +112,7 @@ NestedSets complete_sets(const NestedSets& input, const CompleteOptions& options
 }  // namespace
 
 CompleteResult complete(const Grid& grid, const CompleteOptions& asked, const Context& context) {
+  const auto watch = context.watch();
   CompleteOptions options = asked;
   options.balance = resolve_balance(asked);
   if (const auto issue = grid.find_problem())

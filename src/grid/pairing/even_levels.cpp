@@ -181,6 +181,7 @@ EvenedGrid complete_and_price(const PlacedGrid& placed, const PlaceFinder& finde
 
 EvenedGrid even_levels(const Grid& grid, const SurfaceTree& tree, const CompleteOptions& complete,
                        const EvenOptions& options, const Context& context) {
+  const auto watch = context.watch();
   const PlaceFinder finder(tree);
   PlacedGrid current{grid, finder.find(grid, nullptr)};
   EvenedGrid best = complete_and_price(current, finder, complete, options.transition_cost, context);

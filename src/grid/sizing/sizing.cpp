@@ -178,6 +178,7 @@ GridFrame root_frame(const Box3& box, double margin) {
 
 SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
                         const SizingOptions& options, const Context& context) {
+  const auto watch = context.watch();
   check_options(surface, options);
   const SizingScene scene = make_sizing_scene(surface, features, options, context);
   const Criteria criteria(scene, options);

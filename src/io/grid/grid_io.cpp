@@ -53,6 +53,7 @@ Grid read_grid(const std::filesystem::path& path) {
   try {
     return make_grid(file.frame, std::move(file.roots), file.cells);
   } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
     throw Error(error.code(),
                 std::string(error.what()) + "; correct the cells or write the grid again",
                 path.string());

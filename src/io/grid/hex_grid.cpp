@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 #include "io/grid/grid_file.h"
@@ -44,7 +45,9 @@ class HexGridReader {
 
   std::vector<Box3> find_boxes() const {
     std::vector<Box3> boxes;
+    CancelCheck check_cancelled;
     for (HexId h : file_.hexes.ids()) {
+      check_cancelled();
       Box3 box;
       for (VertId v : file_.hexes[h]) box.extend(file_.positions[v]);
       if (!is_cube(h, box)) fail(h.index(), "it is not an axis-aligned cube; give a grid of cubes");

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/grid/grid_file.h"
 #include "io/mesh/vtk_xml.h"
 #include "io/surface/polygon_soup.h"
@@ -110,7 +112,9 @@ class HtgReader {
             "the numbers of cells per depth and the descriptors differ; the file is damaged, "
             "write it again");
       std::vector<LatticeCoord> children;
+      CancelCheck check_cancelled;
       for (const LatticeCoord& node : nodes) {
+        check_cancelled();
         const bool is_hidden = next_node_ < mask_.size() && mask_[next_node_] != 0;
         ++next_node_;
         const bool is_split = level + 1 < depth && next_bit() && !is_hidden;

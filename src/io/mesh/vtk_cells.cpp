@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/mesh/set_names.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
@@ -42,7 +44,9 @@ class VtkConverter {
     patch_ = find_cell_array({"patch"});
     curve_ = find_cell_array({"curve"});
     std::int64_t begin = 0;
+    CancelCheck check_cancelled;
     for (cell_ = 0; cell_ < grid_.ends.size(); ++cell_) {
+      check_cancelled();
       const std::int64_t end = grid_.ends[cell_];
       if (end < begin || end > static_cast<std::int64_t>(grid_.connectivity.size()))
         fail("its vertices lie outside the connectivity array");
@@ -250,7 +254,7 @@ void add_names(const SetTable& table, VtkOutput& out) {
   std::vector<VtkOutArray> names;
   for (const auto* sets : {&table.regions, &table.patches, &table.curves})
     for (const NamedSet& set : *sets) {
-      if (set.number < 0 || set.name == default_set_name(set.kind, set.number)) continue;
+      if (set.number < 0 || !set.is_given) continue;
       names.push_back(int_array(set.name.c_str(), 1));
       names.back().ints = {set.number, dimension_of(set.kind)};
     }

@@ -12,6 +12,8 @@
 #include <map>
 #include <optional>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/surface/polygon_soup.h"
 #include "io/text/byte_reader.h"
 #include "io/text/file_bytes.h"
@@ -251,6 +253,7 @@ class PlyReader {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;  // holds no data, whatever its count says
       for (std::size_t i = 0; i < element.count; ++i) {
+        check_cancelled_();
         body_.begin(element, i);
         read_element(element);
       }
@@ -396,6 +399,7 @@ class PlyReader {
 
   const PlyHeader& header_;
   Body body_;
+  CancelCheck check_cancelled_;
   PolygonSoup soup_;
   std::string group_property_;
   std::vector<std::int64_t> face_to_number_;  // empty when faces have no groups

@@ -3,21 +3,14 @@
 
 #include <array>
 
+#include "hexwright/base/cancel.h"
+
+#include "io/surface/ear_clipping.h"
+
 namespace hexwright::io {
 namespace {
 
 using Tri = std::array<VertId, 3>;
-
-/// Newell's normal: right for any simple polygon, planar or not. Points relative to the first one,
-/// so that a polygon far from the origin keeps its digits.
-Vec3 newell_normal(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon) {
-  Vec3 normal;
-  const Vec3 origin = positions[polygon[0]];
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    normal += cross(positions[polygon[i]] - origin,
-                    positions[polygon[(i + 1) % polygon.size()]] - origin);
-  return normal;
-}
 
 Vec3 tri_normal(const IdVector<VertId, Vec3>& positions, const Tri& t) {
   return cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
@@ -41,69 +34,6 @@ void split_quad(const IdVector<VertId, Vec3>& positions, std::span<const VertId>
   out.push_back(use_b ? b1 : a1);
 }
 
-/// One polygon of five or more vertices: cuts off ears until a triangle is left; a fan of what
-/// remains when there is no ear (self-crossing polygons). Only reflex vertices can lie in an ear,
-/// so that convex polygons take linear time.
-class EarClipper {
- public:
-  EarClipper(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon)
-      : positions_(positions),
-        ring_(polygon.begin(), polygon.end()),
-        normal_(newell_normal(positions, polygon)) {
-    for (std::size_t i = 0; i < ring_.size(); ++i)
-      if (!is_convex(corner(i))) reflex_.push_back(ring_[i]);
-  }
-
-  void run(std::vector<Tri>& out) {
-    std::size_t start = 0;
-    while (ring_.size() > 3) {
-      const std::size_t ear = find_ear(start);
-      if (ear == ring_.size()) break;
-      out.push_back(corner(ear));
-      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start = ear + 1;  // not the neighbour: a convex polygon is cut evenly, not into a fan
-    }
-    for (std::size_t i = 2; i < ring_.size(); ++i)
-      out.push_back({ring_[0], ring_[i - 1], ring_[i]});
-  }
-
- private:
-  Tri corner(std::size_t i) const {
-    const std::size_t n = ring_.size();
-    return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
-  }
-
-  /// Index of an ear, ring_.size() when there is none.
-  std::size_t find_ear(std::size_t start) const {
-    const std::size_t n = ring_.size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (const std::size_t i = (start + k) % n; is_ear(corner(i))) return i;
-    return n;
-  }
-
-  double side(VertId a, VertId b, VertId p) const {
-    return dot(normal_, cross(positions_[b] - positions_[a], positions_[p] - positions_[a]));
-  }
-  bool is_convex(const Tri& t) const { return side(t[0], t[1], t[2]) > 0; }
-
-  bool is_ear(const Tri& t) const {
-    if (!is_convex(t)) return false;
-    for (VertId v : reflex_) {
-      // Bridges to holes visit a place twice, under one id or two.
-      const auto& p = positions_[v];
-      if (p == positions_[t[0]] || p == positions_[t[1]] || p == positions_[t[2]]) continue;
-      if (side(t[0], t[1], v) >= 0 && side(t[1], t[2], v) >= 0 && side(t[2], t[0], v) >= 0)
-        return false;
-    }
-    return true;
-  }
-
-  const IdVector<VertId, Vec3>& positions_;
-  std::vector<VertId> ring_;
-  std::vector<VertId> reflex_;
-  Vec3 normal_;
-};
-
 void split_polygon(const IdVector<VertId, Vec3>& positions, std::span<const VertId> polygon,
                    std::vector<Tri>& out) {
   if (polygon.size() == 3)
@@ -111,7 +41,7 @@ void split_polygon(const IdVector<VertId, Vec3>& positions, std::span<const Vert
   else if (polygon.size() == 4)
     split_quad(positions, polygon, out);
   else
-    EarClipper(positions, polygon).run(out);
+    clip_ears(positions, polygon, out);
 }
 
 /// Bytes of the printable character at the start of a text; 0 when there is none.
@@ -167,7 +97,9 @@ TriMesh triangulate(PolygonSoup&& soup) {
   const bool is_named =
       !soup.group_names.empty() && soup.group_names != std::vector<std::string>{""};
   std::size_t begin = 0;
+  CancelCheck check_cancelled;
   for (std::size_t p = 0; p < soup.ends.size(); ++p) {
+    check_cancelled();
     const std::size_t end = soup.ends[p];
     split_polygon(mesh.positions, std::span(soup.verts).subspan(begin, end - begin), tris);
     if (is_named) mesh.group.resize(tris.size(), soup.group[p]);

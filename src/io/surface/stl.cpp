@@ -4,6 +4,8 @@
 // outer loop, vertex; binary: 80 bytes of header, a count, 50 bytes per facet).
 // Differs: normals are recomputed, loops may have more than three vertices, several solids may
 // follow each other, and the count field is checked against the file's size.
+#include "hexwright/base/cancel.h"
+
 #include "io/surface/polygon_soup.h"
 #include "io/text/byte_reader.h"
 #include "io/text/file_bytes.h"
@@ -114,7 +116,9 @@ PolygonSoup read_stl_binary(const SurfaceSource& source) {
   soup.positions.reserve(3 * count);
   soup.verts.reserve(3 * count);
   soup.ends.reserve(count);
+  CancelCheck check_cancelled;
   for (std::size_t f = 0; f < count; ++f) {
+    check_cancelled();
     const char* facet = source.bytes.data() + kBinaryPrefix + f * kBinaryFacet;
     for (int v = 0; v < 3; ++v) {
       Vec3 p;

@@ -10,6 +10,7 @@
 
 #include <zlib.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 
@@ -63,6 +64,7 @@ class ByteStream {
 
  private:
   void decode_group(std::string& out) {
+    check_cancelled_();
     std::uint32_t bits = 0;
     int num_letters = 0, num_padding = 0;
     while (num_letters + num_padding < 4) {
@@ -89,6 +91,7 @@ class ByteStream {
   std::string_view left_;
   std::string pending_;  // decoded, not yet handed out
   bool is_base64_;
+  CancelCheck check_cancelled_;
   const std::string& where_;
 };
 
@@ -126,6 +129,7 @@ class BlockDecoder {
     stream_.end_part();
     std::string result;
     for (std::size_t i = 0; i < num_parts; ++i) {
+      check_cancelled();
       const bool is_last_short = i + 1 == num_parts && last_size > 0;
       append_part(stream_.read(packed_sizes[i]), is_last_short ? last_size : part_size, result);
     }

@@ -41,6 +41,7 @@ TextScanner::TextScanner(std::string_view text, std::string file_name)
 /// Blanks, comments and continued lines (a backslash before the line end, as OBJ has them). True
 /// when a token follows on this line.
 bool TextScanner::skip_in_line() {
+  check_cancelled_();
   while (at_ < end_) {
     if (is_blank(*at_)) {
       ++at_;

@@ -1,13 +1,15 @@
 // Reads tokens and numbers from text, by line or across lines, and knows the line it is at.
 //
 // Spaces, tabs, '\r' and a backslash at the end of a line separate tokens within a line; '#' starts
-// a comment. Errors are Error{BadFile} with `where` = "file:line".
+// a comment. Errors are Error{BadFile} with `where` = "file:line"; Error{Cancelled} as
+// base/cancel.h says.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/base/vec3.h"
 
@@ -73,6 +75,7 @@ class TextScanner {
   const char* at_;
   const char* end_;
   std::size_t line_ = 1;
+  CancelCheck check_cancelled_;  // all text formats are read through here
   std::string file_name_;
 };
 

@@ -1,0 +1,65 @@
+// Points in a plane, found near a triangle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "hexwright/base/function_ref.h"
+#include "hexwright/base/vec3.h"
+
+namespace hexwright::io {
+
+/// A point in the coordinates of a plane, and the caller's number for it.
+struct PlanePoint {
+  double u = 0, v = 0;
+  std::uint32_t index = 0;
+};
+
+/// A plane through `origin`; coordinates run counter-clockwise seen from where `normal` points.
+struct Plane {
+  Vec3 origin, normal;  ///< the normal as given, of any length
+  Vec3 along_u, along_v;
+
+  Plane(const Vec3& through, const Vec3& across) : origin(through), normal(across) {
+    const Vec3 n = normalized(across);
+    const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    along_u = normalized(cross(axis, n));
+    along_v = cross(n, along_u);
+  }
+  /// False where the normal is zero or not finite: points have no coordinates then.
+  bool is_proper() const { return norm_sq(along_v) > 0.5 && norm_sq(along_u) > 0.5; }
+  PlanePoint project(const Vec3& p, std::uint32_t index) const {
+    const Vec3 d = p - origin;
+    return {dot(d, along_u), dot(d, along_v), index};
+  }
+};
+
+/// A tree of boxes over points that do not change: each half of a range is split again, across the
+/// longer side of its box.
+class PlaneTree {
+ public:
+  PlaneTree() = default;
+  explicit PlaneTree(std::vector<PlanePoint> points);
+
+  /// Calls `accept` for points in or near a counter-clockwise triangle until it returns true; true
+  /// when it did. Leaves out no point inside; what is near is the caller's to decide.
+  bool find_near(const std::array<PlanePoint, 3>& triangle,
+                 FunctionRef<bool(std::uint32_t index)> accept) const;
+
+ private:
+  struct Box {
+    double u0 = std::numeric_limits<double>::infinity(), v0 = u0, u1 = -u0, v1 = -u0;
+  };
+  struct Query;
+  void build(std::size_t node, std::size_t begin, std::size_t end);
+  bool search(const Query& query, std::size_t node, std::size_t begin, std::size_t end) const;
+
+  std::vector<PlanePoint> points_;
+  std::vector<Box> boxes_;  // of node n; its halves are 2n+1 and 2n+2
+};
+
+}  // namespace hexwright::io

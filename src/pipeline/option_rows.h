@@ -1,0 +1,59 @@
+// Rows of option tables, by the type of what they set.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hexwright/base/function_ref.h"
+#include "hexwright/pipeline/option_table.h"
+
+namespace hexwright {
+
+/// What a row says about itself.
+struct RowText {
+  std::string name, help;
+};
+
+/// Runs `enable` when the flag is given.
+NamedOption flag_row(RowText text, std::function<void()> enable);
+NamedOption flag_row(RowText text, bool& value, bool value_when_given = true);
+
+/// Bounds are allowed values.
+NamedOption whole_row(RowText text, int& value, int least, int most);
+/// From 1 up.
+NamedOption count_row(RowText text, std::size_t& value);
+NamedOption number_row(RowText text, double& value, double least, double most);
+/// Shown and read in degrees, kept in radians.
+NamedOption degrees_row(RowText text, double& radians, double least, double most);
+NamedOption share_row(RowText text, double& value);
+
+/// A row without its setter.
+NamedOption choice_row(RowText text, const std::vector<std::string>& names,
+                       const std::string& fallback);
+/// The number of a name among those allowed. Throws Error{BadArgument}.
+std::size_t find_choice(const std::string& text, const std::vector<std::string>& names);
+
+template <class Enum>
+using Choices = std::vector<std::pair<std::string, Enum>>;
+
+/// One of a few names. `value` may be an Enum or an optional one.
+template <class Enum, class Value>
+NamedOption choice_row(RowText text, Value& value, const Choices<Enum>& choices) {
+  std::vector<std::string> names;
+  std::vector<Enum> values;
+  std::string fallback;
+  for (const auto& [name, choice] : choices) {
+    names.push_back(name);
+    values.push_back(choice);
+    if (value == choice) fallback = name;
+  }
+  NamedOption row = choice_row(std::move(text), names, fallback);
+  row.set = [&value, names, values](const std::string& given) {
+    value = values[find_choice(given, names)];
+  };
+  return row;
+}
+
+}  // namespace hexwright
