@@ -54,13 +54,14 @@ std::string describe_limit() {
 
 std::string describe_memory_shortage() {
   const std::size_t refused = refused_size;
-  const std::string more = refused < (1u << 20)
-                               ? "more was needed"
-                               : fmt::format("{:.0f} MiB more were needed",
-                                             static_cast<double>(refused) / kMebibyte);
+  const std::string more =
+      refused < (1u << 20)
+          ? "more was needed"
+          : fmt::format("{:.0f} MiB more were needed", static_cast<double>(refused) / kMebibyte);
   return fmt::format(
       "not enough memory: {} beside the {:.0f} MiB in use so far, and {}; use fewer levels "
-      "(--max-level), a smaller budget (--max-cells, --max-hexes) or a surface with fewer triangles",
+      "(--max-level), a smaller budget (--max-cells, --max-hexes) or a surface with fewer "
+      "triangles",
       more, peak_mebibytes(), describe_limit());
 }
 

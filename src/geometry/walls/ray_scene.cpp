@@ -39,7 +39,9 @@ struct RayScene::Impl {
     const ThreadLimit one_builder(1);
     device = rtcNewDevice(nullptr);
     if (!device)
-      throw Error(ErrorCode::OutOfResources, "the ray tracer cannot start; it needs some 250 MiB of address space (ulimit -v)");
+      throw Error(
+          ErrorCode::OutOfResources,
+          "the ray tracer cannot start; it needs some 250 MiB of address space (ulimit -v)");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     attach_triangles();
