@@ -8,11 +8,11 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -48,7 +48,8 @@ void run(const FitCommand& cmd, Program& program) {
     return;
   }
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   JudgeOptions judge_options;
   judge_options.features = features_for_sizing(options.features, tree.box().diagonal());
   const Verdict verdict = judge(result.mesh, tree, judge_options, context);

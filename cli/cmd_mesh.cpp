@@ -9,18 +9,19 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
+#include "view_file.h"
 
 namespace hexwright::cli {
 namespace {
 
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
-  std::string input, output, format, report, picture, grid, features;
+  std::string input, output, format, report, picture, view, grid, features;
   std::vector<std::string> patches;
   MeshOptions options;
 };
@@ -29,6 +30,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
                             result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
+  for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
@@ -37,8 +39,10 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 /// A mesh that fails the gate is written all the same, with its failures on stderr and exit code 1:
 /// to look at it is the way to see why. Only an empty one leaves no file.
 void run(const MeshCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input, cmd.features});
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.view, cmd.grid},
+                {cmd.input, cmd.features});
   if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
+  if (!cmd.view.empty()) require_extension(cmd.view, {".html"});
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
   require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
@@ -57,7 +61,9 @@ void run(const MeshCommand& cmd, Program& program) {
     info.changed_names =
         write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
     if (!cmd.picture.empty())
-      write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+      write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+    if (!cmd.view.empty())
+      write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
   }
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, report_to_json(result, options, info));
@@ -80,6 +86,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  sub->add_option("--view", cmd->view, "Write a page to look into the mesh with (.html)");
   sub->add_option("--save-grid", cmd->grid,
                   "Write the completed grid (.cells, .htg, .vtu); the lattice then lies "
                   "as given");

@@ -10,14 +10,13 @@
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
-#include "hexwright/polycube/polycube.h"
-#include "hexwright/quality/judge.h"
+#include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -29,37 +28,10 @@ struct PolycubeCommand {
   PolycubeOptions options;
 };
 
-nlohmann::ordered_json folded_to_json(const std::vector<FoldedHex>& folded) {
-  auto json = nlohmann::ordered_json::array();
-  for (const FoldedHex& f : folded)
-    json.push_back({{"hex", f.hex.value()},
-                    {"center", {f.center.x, f.center.y, f.center.z}},
-                    {"scaled_jacobian", f.scaled_jacobian},
-                    {"object_tet", f.tet.value() + 1},
-                    {"map_is_folded_there", f.is_map_folded}});
-  return json;
-}
-
-/// Keys as documented in docs/cli.md; tets count from 1, as in the files.
-std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
+/// Keys as documented in docs/cli.md.
+std::string to_json(const PolycubeReport& report, const Verdict& verdict) {
   nlohmann::ordered_json json;
-  json["polycube"] = {{"tets", r.num_tets},
-                      {"nonpositive_tets_object", r.num_nonpositive_object},
-                      {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
-                      {"nonpositive_tets_after_repair", r.num_nonpositive_left},
-                      {"charts", r.num_charts},
-                      {"unaligned_facets", r.num_unaligned_facets},
-                      {"max_plane_deviation", r.max_plane_deviation},
-                      {"spacing", r.spacing},
-                      {"roots", r.num_roots},
-                      {"sampled_cells", r.num_sampled_cells},
-                      {"cells", r.num_cells},
-                      {"bridged_vertices", r.num_bridged},
-                      {"inverted_after_mapping", r.num_inverted_mapped},
-                      {"rounds", r.num_rounds},
-                      {"max_distance", r.max_distance},
-                      {"folded_hexes", folded_to_json(r.folded)},
-                      {"warnings", r.warnings}};
+  json["polycube"] = nlohmann::ordered_json::parse(polycube_to_json(report));
   json["verdict"] = nlohmann::ordered_json::parse(verdict_to_json(verdict));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -103,8 +75,6 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
   };
 }
 
-/// The reference of the judgement is the object's own boundary, whose edges between charts are
-/// labelled by the map; creases by angle are switched off by an angle that no edge reaches.
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
   require_mesh_format(cmd.output);
@@ -114,13 +84,12 @@ void run(const PolycubeCommand& cmd, Program& program) {
   options.max_edge = make_size_field(cmd, object);
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
-  JudgeOptions judge_options;
-  judge_options.features.crease_angle = 4;  // the map's own curves count, not the surface's creases
-  const Verdict verdict = judge(result.mesh, SurfaceTree(result.surface), judge_options, context);
+  const Verdict verdict = judge_polycube(result, context);
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);

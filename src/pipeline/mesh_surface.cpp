@@ -38,6 +38,14 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
         static_cast<double>(sizing.splits_by_reason[r]);
 }
 
+/// What no cell could resolve is no part.
+PrepareOptions resolve_prepare(const MeshOptions& options) {
+  PrepareOptions prepare = options.prepare;
+  if (prepare.min_part < 0)
+    prepare.min_part = options.sizing.sizing == Sizing::Deviation ? options.sizing.tolerance : 0.0;
+  return prepare;
+}
+
 /// How close to one plane, in the unit frame, the vertices of a turned plane face must lie to be
 /// put exactly on it: files in single precision leave some 1e-7.
 constexpr double kPlaneTolerance = 1e-6;
@@ -175,8 +183,9 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& given, const 
   const Context context = collect_warnings(caller, result.warnings);
 
   // Clean and orient, then normalise position and scale.
-  PreparedSurface prepared = run_stage(result.stages, "prepare", context,
-                                       [&] { return prepare_surface(surface, context); });
+  PreparedSurface prepared = run_stage(result.stages, "prepare", context, [&] {
+    return prepare_surface(surface, resolve_prepare(given), context);
+  });
   result.surface = std::move(prepared.diagnosis);
   result.stages.back().counts["triangles"] = static_cast<double>(prepared.mesh.num_tris());
   Similarity frame = compute_unit_frame(prepared.mesh);

@@ -77,6 +77,23 @@ OptionTable fit_rows(FitOptions& options) {
   };
 }
 
+OptionTable prepare_rows(PrepareOptions& options) {
+  OptionTable table = {
+      choice_row<Parts>(
+          {"parts",
+           "Solids that overlap or touch: united; those that only touch kept apart; or all surfaces "
+           "left as they are"},
+          options.parts,
+          {{"as-is", Parts::AsIs}, {"separate", Parts::Separate}, {"unite", Parts::Unite}}),
+      share_row({"min-part",
+                 "Parts no longer than this share of the diagonal are left out, with a warning, and "
+                 "voids filled"},
+                options.min_part),
+  };
+  table.back().fallback = "the tolerance";
+  return table;
+}
+
 /// A level asked for binds the loop too.
 void let_level_bind_loop(OptionTable& table, MeshOptions& options) {
   for (NamedOption& row : table)
@@ -97,6 +114,7 @@ OptionTable make_option_table(MeshOptions& options) {
        "The lattice along the part's faces, however they are turned (inside only), or along the "
        "given axes"},
       options.placement, {{"as-given", Placement::AsGiven}, {"faces", Placement::Faces}}));
+  append(table, prepare_rows(options.prepare));
   table.push_back(
       number_row({"transition-cost",
                   "What a cell beside another level counts more than one that is not, when levels "

@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 // By the values of the enums; the names are those of the command line.
 constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
+constexpr const char* kPartsNames[] = {"unite", "separate", "as-is"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};
 
 std::string to_text(const Json& json) {
@@ -30,7 +31,9 @@ std::string to_text(const Json& json) {
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Json describe_options(const MeshOptions& o) {
-  return {{"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
+  return {{"parts", kPartsNames[static_cast<int>(o.prepare.parts)]},
+          {"min_part", o.prepare.min_part < 0 ? o.sizing.tolerance : o.prepare.min_part},
+          {"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
           {"tolerance", o.sizing.tolerance},
           {"deviation_factor", o.sizing.deviation_factor},
           {"wall_factor", o.sizing.wall_factor},
@@ -62,7 +65,12 @@ Json describe_surface(const SurfaceDiagnosis& s) {
           {"boundary_edges", s.num_boundary_edges},
           {"nonmanifold_edges", s.num_nonmanifold_edges},
           {"flipped_triangles", s.num_flipped_tris},
-          {"was_inside_out", s.is_flipped_whole}};
+          {"was_inside_out", s.is_flipped_whole},
+          {"united_parts", s.num_united_parts},
+          {"unions", s.num_unions},
+          {"small_parts_left_out", s.num_small_parts},
+          {"small_voids_filled", s.num_small_voids},
+          {"notes", s.notes}};
 }
 
 Json describe_sizing(const SizingResult& s) {
@@ -119,6 +127,37 @@ Json describe_fit(const FitReport& f) {
   for (const auto& [pass, seconds] : f.seconds) fit["seconds"][pass] = seconds;
   for (const auto& [pass, seconds] : f.processor_seconds) fit["processor_seconds"][pass] = seconds;
   return fit;
+}
+
+Json describe_folded(const std::vector<FoldedHex>& folded) {
+  Json json = Json::array();
+  for (const FoldedHex& f : folded)
+    json.push_back({{"hex", f.hex.value()},
+                    {"center", {f.center.x, f.center.y, f.center.z}},
+                    {"scaled_jacobian", f.scaled_jacobian},
+                    {"object_tet", f.tet.value() + 1},
+                    {"map_is_folded_there", f.is_map_folded}});
+  return json;
+}
+
+Json describe_polycube(const PolycubeReport& r) {
+  return {{"tets", r.num_tets},
+          {"nonpositive_tets_object", r.num_nonpositive_object},
+          {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
+          {"nonpositive_tets_after_repair", r.num_nonpositive_left},
+          {"charts", r.num_charts},
+          {"unaligned_facets", r.num_unaligned_facets},
+          {"max_plane_deviation", r.max_plane_deviation},
+          {"spacing", r.spacing},
+          {"roots", r.num_roots},
+          {"sampled_cells", r.num_sampled_cells},
+          {"cells", r.num_cells},
+          {"bridged_vertices", r.num_bridged},
+          {"inverted_after_mapping", r.num_inverted_mapped},
+          {"rounds", r.num_rounds},
+          {"max_distance", r.max_distance},
+          {"folded_hexes", describe_folded(r.folded)},
+          {"warnings", r.warnings}};
 }
 
 Json describe_stages(const MeshResult& r) {
@@ -191,5 +230,8 @@ std::string complete_to_json(const CompleteReport& complete) {
 }
 std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
 std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+std::string polycube_to_json(const PolycubeReport& polycube) {
+  return to_text(describe_polycube(polycube));
+}
 
 }  // namespace hexwright

@@ -43,4 +43,10 @@ DualResult run_dual_stage(const Grid& grid, const DualStageOptions& options,
   return build_dual(grid, dual, context);
 }
 
+Verdict judge_polycube(const PolycubeResult& result, const Context& context) {
+  JudgeOptions options;
+  options.features.crease_angle = 4;  // radians: more than any edge turns
+  return judge(result.mesh, SurfaceTree(result.surface), options, context);
+}
+
 }  // namespace hexwright

@@ -28,6 +28,7 @@ enum class Placement {
 };
 
 struct MeshOptions {
+  PrepareOptions prepare{.min_part = -1};  ///< min_part < 0: the tolerance
   Placement placement = Placement::Faces;
   SizingOptions sizing;
   CompleteOptions complete;

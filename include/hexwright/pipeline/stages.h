@@ -5,6 +5,7 @@
 
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/polycube/polycube.h"
 
 namespace hexwright {
 
@@ -27,5 +28,9 @@ DualMode resolve_dual_mode(const Grid& grid, const DualStageOptions& options);
 /// and those of build_dual.
 DualResult run_dual_stage(const Grid& grid, const DualStageOptions& options,
                           const Context& context);
+
+/// Judges the mesh against the object's boundary. The features are those that the map has labelled;
+/// creases by angle do not count.
+Verdict judge_polycube(const PolycubeResult& result, const Context& context);
 
 }  // namespace hexwright

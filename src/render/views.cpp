@@ -1,10 +1,10 @@
-// Views for pictures.
-#include "picture_file.h"
-
+// Views that show the inside of any mesh.
 #include <algorithm>
 #include <array>
 
-namespace hexwright::cli {
+#include "hexwright/render/picture.h"
+
+namespace hexwright {
 
 PictureOptions make_cut_view(int axis, double offset) {
   PictureOptions options;
@@ -29,8 +29,4 @@ PictureOptions make_default_view(const HexMesh& mesh) {
   return make_cut_view(axes[1], 0.5);
 }
 
-void write_picture(const std::string& path, const HexMesh& mesh, const PictureOptions& options) {
-  write_png(path, render_hex_mesh(mesh, options));
-}
-
-}  // namespace hexwright::cli
+}  // namespace hexwright
