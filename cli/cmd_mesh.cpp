@@ -48,8 +48,8 @@ void run(const MeshCommand& cmd, Program& program) {
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
-  load_features(cmd.features, surface, options.fit.features);
+  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  load_features(cmd.features, surface, options.target.features);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();

@@ -4,11 +4,11 @@
 >>> mesh = hw.mesh("part.stl")        # doctest: +SKIP
 >>> mesh.save("part.vtu")             # doctest: +SKIP
 """
-from ._core import __version__
+from ._core import version as __version__
 from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, InvalidMesh, OutOfResources
 from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface
-from ._mesh import Facets, HexMesh, View, read
+from ._mesh import Facets, HexMesh, read
 from ._options import Option, options
 from ._stages import Verdict, check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
 
@@ -27,7 +27,6 @@ __all__ = [
     "Surface",
     "TetMesh",
     "Verdict",
-    "View",
     "__version__",
     "check",
     "complete",

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import tempfile
+import warnings
 import webbrowser
 from collections.abc import Mapping
 from functools import cached_property
@@ -15,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._errors import BadInput
-from ._inputs import PathLike, SurfaceLike, as_surface, to_array
+from ._errors import BadInput, HexwrightWarning
+from ._inputs import PathLike, as_surface, to_array
 
 if TYPE_CHECKING:
     from ._grid import Grid
@@ -96,10 +97,9 @@ class HexMesh:
     @cached_property
     def patches(self) -> dict[str, Facets]:
         """The boundary by patches of the surface: smooth parts between its sharp edges, by name."""
-        quads, owner, side, start = self._core.facets()
-        names = _fill_names(self._core.patch_names, len(start) - 1, "patch")
+        quads, owner, side, start, names = self._core.facets()
         found = {}
-        for name, first, last in zip(names, start, start[1:]):
+        for name, first, last in zip(_tell_apart(names), start, start[1:]):
             if last > first:
                 found[name] = Facets(quads[first:last], owner[first:last], side[first:last])
         return found
@@ -126,9 +126,8 @@ class HexMesh:
     @cached_property
     def curves(self) -> dict[str, NDArray[np.int32]]:
         """Mesh edges along the surface's sharp edges, shape (n, 2) for each, by name."""
-        edges, start = self._core.curves()
-        names = _fill_names(self._core.curve_names, len(start) - 1, "curve")
-        return {name: edges[a:b] for name, a, b in zip(names, start, start[1:]) if b > a}
+        edges, start, names = self._core.curves()
+        return {name: edges[a:b] for name, a, b in zip(_tell_apart(names), start, start[1:]) if b > a}
 
     def quality(self, measure: str = "scaled_jacobian") -> NDArray[np.float64]:
         """One value per hex.
@@ -152,19 +151,54 @@ class HexMesh:
             self.report, self.failures = verdict.report, verdict.failures
         return not self.failures
 
-    def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None) -> None:
-        """Writes the mesh by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus).
+    def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None, format: str = "") -> None:
+        """Writes the mesh by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus), polyMesh (OpenFOAM), ...
 
-        The same bytes as the command line writes. The file appears whole or not at all.
+        The same bytes as the command line writes. The file appears whole or not at all. Names of patches that a format
+        cannot take are changed, with a ``HexwrightWarning`` that says to what.
 
         Parameters
         ----------
         path : path-like
         fields : mapping of str to array_like of shape (k,), optional
             Values per hex to write beside the scaled Jacobian, in the formats that have them.
+        format : str, optional
+            The format where the extension does not tell, as ``--format`` of the command line.
         """
         pairs = [(name, to_array(values, name)) for name, values in (fields or {}).items()]
-        self._core.save(os.fspath(path), pairs)
+        changed = self._core.save(os.fspath(path), pairs, format)
+        if changed:
+            told = ", ".join(f"'{given}' is '{written}'" for given, written in changed)
+            warnings.warn(f"{os.fspath(path)}: names that the format cannot take: {told}", HexwrightWarning, stacklevel=2)
+
+    def view(self, path: PathLike | None = None, surface: Any = None, open: bool = True) -> str:
+        """Writes a page to look into the mesh with, and opens it in a browser: cut, peel, filter by quality, names.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The page (.html), which needs no network; a temporary file when left out.
+        surface : as for ``mesh``, optional
+            Drawn over the mesh.
+        open : bool
+            Whether to open it.
+
+        Returns
+        -------
+        str
+            The page's path.
+        """
+        against = None if surface is None else as_surface(surface)._core
+        page = _core.view_page(self._core, "mesh" if path is None else pathlib.Path(path).stem, against)
+        if path is None:
+            handle, name = tempfile.mkstemp(".html", "hexwright_")
+            os.close(handle)
+        else:
+            name = os.fspath(path)
+        pathlib.Path(name).write_text(page, encoding="utf-8")
+        if open:
+            webbrowser.open(pathlib.Path(name).resolve().as_uri())
+        return name
 
     def to_pyvista(self) -> Any:
         """A ``pyvista.UnstructuredGrid`` with cell data ``region`` and ``scaled_jacobian``. Points are copied."""
@@ -212,22 +246,6 @@ class HexMesh:
         keywords = {"scalars": "scaled_jacobian", "show_edges": True, "cmap": "RdYlBu", **keywords}
         return self.to_pyvista().plot(**keywords)
 
-    def view(self, surface: SurfaceLike | None = None, title: str = "mesh") -> View:
-        """A page to look into the mesh with: cut, peel, filter by quality, worst hexes, patches by name.
-
-        In a notebook it is shown where it is made; elsewhere ``view().open()`` shows it in the browser and
-        ``view().save("part.html")`` keeps it. It needs no network.
-
-        Parameters
-        ----------
-        surface : path, pair of arrays or object, optional
-            What the mesh stands for: drawn over it, and the boundary can be coloured by its distance.
-        title : str
-            What the page calls the mesh.
-        """
-        given = None if surface is None else as_surface(surface)._core
-        return View(_core.view_page(self._core, given, title).decode())
-
     def __repr__(self) -> str:
         return f"<hexwright.HexMesh: {len(self.hexes)} hexes, {len(self.points)} points, {len(self.patches)} patches>"
 
@@ -246,41 +264,9 @@ class HexMesh:
         return f"<div>{to_png_tag(self)}<table>{cells}</table></div>"
 
 
-class View:
-    """A page to look into a mesh with, as :meth:`HexMesh.view` makes it.
-
-    Attributes
-    ----------
-    html : str
-        The whole page.
-    """
-
-    def __init__(self, page: str):
-        self.html = page
-
-    def save(self, path: PathLike) -> None:
-        """Writes the page."""
-        with open(path, "w", encoding="utf-8", newline="") as file:
-            file.write(self.html)
-
-    def open(self) -> bool:
-        """Shows the page in the desktop's browser, from a new folder for temporary files; False where there is none."""
-        path = os.path.join(tempfile.mkdtemp(prefix="hexwright-"), "mesh.html")
-        self.save(path)
-        return webbrowser.open(pathlib.Path(path).as_uri())
-
-    def __repr__(self) -> str:
-        return f"<hexwright.View: {len(self.html) / 1e6:.1f} MB; save() or open() it>"
-
-    def _repr_html_(self) -> str:
-        style = "width:100%;height:640px;border:1px solid #ccc"
-        return f'<iframe srcdoc="{html.escape(self.html)}" style="{style}" title="hexwright"></iframe>'
-
-
-def _fill_names(names: list[str], count: int, kind: str) -> list[str]:
-    """A name for each: its own, or its number; numbered too where files give one name twice."""
-    filled = [names[k] if k < len(names) and names[k] else f"{kind}_{k}" for k in range(count)]
-    return [f"{name}.{k}" if filled.count(name) > 1 else name for k, name in enumerate(filled)]
+def _tell_apart(names: list[str]) -> list[str]:
+    """With their numbers where a file gives one name twice."""
+    return [f"{name}.{k}" if names.count(name) > 1 else name for k, name in enumerate(names)]
 
 
 def read(path: PathLike) -> HexMesh:
