@@ -5,10 +5,12 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_summary.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -76,16 +78,32 @@ void write_page(const CheckCommand& cmd, const HexMesh& mesh, const Judgement& j
   write_view(cmd.view, mesh, options);
 }
 
+/// As they would be written.
+std::vector<SetSummary> summarize_named_sets(const HexMesh& mesh) {
+  SetTable table = make_set_table(mesh);
+  name_by_place(mesh, table);
+  return summarize_sets(mesh, table);
+}
+
+std::string with_sets(const std::string& verdict, const std::vector<SetSummary>& sets) {
+  auto json = nlohmann::ordered_json::parse(verdict);
+  json["sets"] = nlohmann::ordered_json::parse(sets_to_json(sets));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void check_mesh(const CheckCommand& cmd, Program& program) {
   const HexMesh mesh = read_hex_mesh(cmd.input);
   const Judgement judgement = judge_mesh(cmd, mesh, program);
   const Verdict& verdict = judgement.verdict;
   write_page(cmd, mesh, judgement);
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, verdict_to_json(verdict));
+  const std::vector<SetSummary> sets = summarize_named_sets(mesh);
+  const std::string json = with_sets(verdict_to_json(verdict), sets);
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, json);
   if (cmd.as_json) {
-    std::puts(verdict_to_json(verdict).c_str());
+    std::puts(json.c_str());
   } else {
-    program.console.print(fmt::format("{}\n{}", cmd.input, verdict_to_text(verdict)));
+    program.console.print(
+        fmt::format("{}\n{}{}", cmd.input, sets_to_text(sets), verdict_to_text(verdict)));
   }
   if (cmd.as_json || program.console.is_quiet)  // otherwise the text has said so
     for (const std::string& f : verdict.failures) program.console.fail(cmd.input + ": " + f);

@@ -19,6 +19,7 @@ namespace {
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
   FitStageOptions options;
+  std::vector<std::string> patches;
 };
 
 /// The result is judged as `check` would judge it, and decides the exit code.
@@ -30,8 +31,10 @@ void run(const FitCommand& cmd, Program& program) {
   const TriMesh surface = load_surface(cmd.surface, program);
   FitStageOptions wishes = cmd.options;
   load_features(cmd.features, surface, wishes.target.features);
-  const Target target =
-      naming_file(cmd.surface, [&] { return make_target(surface, wishes.target, context); });
+  const Target target = naming_file(cmd.surface, [&] {
+    return make_target(name_patches(TriMesh(surface), cmd.patches, program), wishes.target,
+                       context);
+  });
   const FitResult result = naming_file(cmd.hexes, [&] {
     FitResult fitted = fit(to_unit(background, target.frame), target, wishes.fit, context);
     fitted.to_world(target.frame);
@@ -71,6 +74,7 @@ void add_fit_command(CLI::App& app, Program& program) {
       ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   add_console_options(*sub, program);

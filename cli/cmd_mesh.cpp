@@ -22,6 +22,7 @@ namespace {
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
   std::string input, output, format, report, picture, view, grid, features;
+  std::vector<std::string> patches;
   MeshOptions options;
 };
 
@@ -45,11 +46,12 @@ void run(const MeshCommand& cmd, Program& program) {
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
   require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
-  const TriMesh surface = load_surface(cmd.input, program);
+  const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   // Grid files have no axes of their own.
   if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
-  load_features(cmd.features, surface, options.target.features);
+  load_features(cmd.features, as_read, options.target.features);
+  const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
@@ -80,6 +82,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
   add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");

@@ -71,6 +71,7 @@ std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const 
   WriteHexOptions options;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
   options.format = format;
+  options.names_by_place = true;
   return write_mesh(path, mesh, console, options);
 }
 

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hexwright/io/set_summary.h"
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
@@ -213,6 +214,9 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"fit", describe_fit(result.fit)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
+  SetTable table = make_set_table(result.mesh);
+  name_by_place(result.mesh, table);
+  report["sets"] = Json::parse(sets_to_json(summarize_sets(result.mesh, table)));
   for (const ChangedName& name : run.changed_names)
     report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);

@@ -169,7 +169,7 @@ class Mesh(CliTest):
             self.assertEqual(*outputs)
 
     def test_every_format_reads_back(self):
-        for extension in ("vtu", "vtk", "mesh"):
+        for extension in ("vtu", "vtk", "mesh", "msh", "msh2", "inp"):
             out = self.path / f"a.{extension}"
             self.run_binary("mesh", self.cube, "-o", out, *COARSE)
             self.run_binary("check", out, self.cube)
@@ -279,6 +279,53 @@ class Stages(CliTest):
         text = self.run_binary("improve", hexes, "-o", self.path / "i.mesh").stdout
         before, after = map(float, re.search(r"min (-?[\d.]+) -> (-?[\d.]+)", text).groups())
         self.assertGreaterEqual(after, before)
+
+
+class Names(CliTest):
+    def sets(self, mesh):
+        data = json.loads(self.run_binary("check", mesh, "--json").stdout)
+        return {s["name"]: s for s in data["sets"]}
+
+    def test_groups_of_the_file_become_patches_of_every_format(self):
+        named = self.path / "named.obj"
+        faces = CUBE.splitlines()
+        lines = [l for l in faces if l.startswith("v")]
+        for name, group in (("in let", faces[8:9]), ("rest", faces[9:])):
+            lines += ["g " + name, *group]
+        named.write_text("\n".join(lines))
+        report = self.path / "r.json"
+        done = self.run_binary("mesh", named, "-o", self.path / "a.inp", "--report", report, *COARSE)
+        self.assertIn("'in let' is called 'in_let'", done.stderr)
+        data = json.loads(report.read_text())
+        self.assertIn({"given": "in let", "written": "in_let"}, data["changed_names"])
+        self.assertEqual([s["elements"] for s in data["sets"] if s["name"] == "rest"],
+                         [sum(s["elements"] for s in data["sets"] if s["name"].startswith("rest."))])
+        found = self.sets(self.path / "a.inp")
+        self.assertAlmostEqual(found["in_let"]["area"], 1, places=5)
+        self.assertEqual([round(x) for x in found["in_let"]["normal"]], [-1, 0, 0])
+        self.run_binary("convert", self.path / "a.inp", self.path / "polyMesh")
+        self.assertIn("    in_let\n", (self.path / "polyMesh/boundary").read_text())
+        self.run_binary("convert", self.path / "a.inp", self.path / "b.mesh", "--format", "mfem")
+        self.assertTrue((self.path / "b.mesh").read_text().startswith("MFEM mesh v1.3"))
+
+    def test_rules_name_parts_and_places_name_the_rest(self):
+        out = self.path / "a.msh"
+        self.run_binary("mesh", self.cube, "-o", out, *COARSE, "--patch", "inlet=plane:x<0", "--patch",
+                        "half=plane:z=1&plane:y<0.5")
+        found = self.sets(out)
+        self.assertAlmostEqual(found["inlet"]["area"], 1, places=5)
+        self.assertAlmostEqual(found["half"]["area"], 0.5, places=3)
+        self.assertAlmostEqual(found["patch_zmin"]["area"], 1, places=5)
+        self.assertEqual(found["inlet"]["normal"], [-1, 0, 0])
+        text = self.run_binary("check", out).stdout
+        self.assertRegex(text, r"patch +inlet: \d+ quads, area 1, at \(0 0.5\d* 0.5\d*\), normal \(-1 0 0\)")
+
+    def test_wrong_rules_and_formats_are_bad_usage(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--patch", "inlet=plane:w<0", expect=2)
+        self.assertIn("inlet=plane:x<0.001", done.stderr)
+        self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--format", "nonsense", expect=2)
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE, "--patch", "no=plane:x>5")
+        self.assertIn("no part of the surface", done.stderr)
 
 
 class Check(CliTest):

@@ -90,7 +90,7 @@ def run_meshio(folder, samples):
     import meshio
 
     reference = meshio.read(folder / "box.vtu")
-    formats = {".msh2": "gmsh", ".mfem": None, ".cdb": None, ".k": None}  # None: meshio has none of these
+    formats = {".msh2": "gmsh", ".mfem": None, ".exo": None, ".cdb": None, ".k": None}  # None: meshio has none of these
     for extension in samples["extensions"]:
         if formats.get(extension, extension) is None:
             continue

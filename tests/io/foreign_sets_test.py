@@ -182,6 +182,40 @@ def read_vtk(folder, samples):
         Judge(samples, name).check(found)
 
 
+def read_exodus(folder, samples):
+    """By VTK's reader, which is built on the Exodus library itself."""
+    from vtkmodules.vtkIOExodus import vtkExodusIIReader
+
+    reader = vtkExodusIIReader()
+    reader.SetFileName(str(folder / "named.exodus"))
+    reader.UpdateInformation()
+    kinds = {"regions": reader.ELEM_BLOCK, "patches": reader.SIDE_SET, "nodes": reader.NODE_SET}
+    for kind in kinds.values():
+        for i in range(reader.GetNumberOfObjects(kind)):
+            reader.SetObjectStatus(kind, i, 1)
+    reader.Update()
+    output = reader.GetOutput()
+    found = Found()
+    found.patches, found.nodes = defaultdict(list), {}
+    for b in range(output.GetNumberOfBlocks()):
+        group = output.GetBlock(b)
+        for i in range(group.GetNumberOfBlocks() if group else 0):
+            grid = group.GetBlock(i)
+            name = group.GetMetaData(i).Get(output.NAME()) if grid else None
+            if not grid:
+                continue
+            cells = [[list(grid.GetPoint(grid.GetCell(c).GetPointId(k))) for k in range(grid.GetCell(c).GetNumberOfPoints())]
+                     for c in range(grid.GetNumberOfCells())]
+            size = len(cells[0])
+            if size == 8:
+                found.regions[name] = cells
+            elif size == 4:
+                found.patches[name] = cells
+            else:
+                found.nodes[name] = [cell[0] for cell in cells]
+    Judge(samples, "exodus").check(found, groups=True)
+
+
 def read_gmsh(folder, samples):
     import gmsh
 
@@ -414,6 +448,7 @@ def read_calculix(folder, samples):
 READERS = {
     "meshio": ("module", read_meshio),
     "vtkmodules": ("module", read_vtk),
+    "vtkmodules.vtkIOExodus": ("module", read_exodus),
     "gmsh": ("module", read_gmsh),
     "mfem": ("module", read_mfem),
     "pyNastran": ("module", read_nastran),
@@ -428,7 +463,7 @@ def is_installed(reader):
     kind, _ = READERS[reader]
     if kind == "program":
         return shutil.which(reader) is not None
-    if importlib.util.find_spec(reader) is None:
+    if importlib.util.find_spec(reader.split(".")[0]) is None:
         return False
     try:  # a module whose shared libraries are missing counts as absent
         importlib.import_module(reader)

@@ -67,7 +67,7 @@ TEST(SetTable, NodesAreThoseOfTheElements) {
 SetTable table_of(const Names& patch_names) {
   SetTable table;
   for (const std::string& name : patch_names)
-    table.patches.push_back({SetKind::Patch, name, std::int32_t(table.patches.size()), {0}});
+    table.patches.push_back({SetKind::Patch, name, std::int32_t(table.patches.size()), {0}, true});
   return table;
 }
 
@@ -94,6 +94,7 @@ TEST(NameRules, NamesThatAreTakenGetANumber) {
 
 TEST(NameRules, NamesOfUsersComeBeforeNumbers) {
   SetTable table = table_of({"PATCH_0", "PATCH_0"});
+  table.patches[0].is_given = false;
   EXPECT_EQ(apply_name_rules({}, table), (std::vector<ChangedName>{{"PATCH_0", "PATCH_0_2"}}));
   EXPECT_EQ(names_of(table.patches), (Names{"PATCH_0_2", "PATCH_0"}));
 }
@@ -118,7 +119,7 @@ TEST(NameRules, DerivedAndReservedNamesAreKeptFree) {
 TEST(NameRules, KindsMayShareNamesWhereTheFormatLetsThem) {
   NameRules rules;
   SetTable table = table_of({"steel"});
-  table.regions.push_back({SetKind::Region, "steel", 0, {0}});
+  table.regions.push_back({SetKind::Region, "steel", 0, {0}, true});
   rules.is_unique_per_kind = true;
   EXPECT_TRUE(apply_name_rules(rules, table).empty());
   rules.is_unique_per_kind = false;

@@ -28,7 +28,8 @@ struct WriteHexOptions {
   std::vector<HexField> fields;
   bool write_sets = false;  ///< VTU, VTK: also quads, edges and corners as cells (they are always
                             ///< in the field data)
-  std::string format;       ///< one of hex_mesh_formats(), or empty: by the name's extension
+  bool names_by_place = false;  ///< patches without a name get one by name_by_place()
+  std::string format;           ///< one of hex_mesh_formats(), or empty: by the name's extension
 };
 
 struct WriteHexResult {

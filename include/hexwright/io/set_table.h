@@ -25,6 +25,7 @@ struct NamedSet {
   std::int32_t number = -1;
   /// Increasing indices of hexes, or into labels.quads, labels.edges, labels.corners.
   std::vector<std::size_t> members;
+  bool is_given = false;  ///< the name is the mesh's own
 };
 
 /// Sets are in increasing order of number; none is empty.

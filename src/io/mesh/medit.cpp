@@ -185,7 +185,7 @@ void write_names(const SetTable& table, TextWriter& out) {
     for (const NamedSet& set : kind.kind == SetKind::Region  ? table.regions
                                : kind.kind == SetKind::Patch ? table.patches
                                                              : table.curves) {
-      if (set.number < 0 || set.name == default_set_name(set.kind, set.number)) continue;
+      if (set.number < 0 || !set.is_given) continue;
       out.text("# ").text(kind.word).text(" ");
       out.integer(std::int64_t{set.number} + kind.ref_minus_number).text(" ");
       out.text(set.name).text("\n");

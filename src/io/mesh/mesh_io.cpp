@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hexwright/io/atomic_file.h"
+#include "hexwright/io/set_summary.h"
 
 #include "io/mesh/volume_file.h"
 #include "io/solver/solver_formats.h"
@@ -38,6 +39,7 @@ constexpr MeshFormat kFormats[] = {
     {"Gmsh 2.2", "gmsh2", ".msh2", read_gmsh, gmsh_names, without_options<gmsh2_text>},
     {"Abaqus", "abaqus", ".inp", read_abaqus, abaqus_names, without_options<abaqus_text>},
     {"MFEM", "mfem", ".mfem", nullptr, mfem_names, without_options<mfem_text>},
+    {"Exodus II", "exodus", ".exo", nullptr, exodus_names, without_options<exodus_bytes>},
     {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>},
     {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>},
     {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, without_options<lsdyna_text>},
@@ -183,6 +185,7 @@ WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& 
   check_hex_mesh_format(path, options.format);
   WriteHexResult result;
   SetTable table = make_set_table(mesh);
+  if (options.names_by_place) name_by_place(mesh, table);
   if (io::is_openfoam(path, options.format)) {
     result.changed_names = apply_name_rules(io::openfoam_names(), table);
     io::write_folder_atomically(path, io::openfoam_files(mesh, table), kOpenFoamFiles);

@@ -254,7 +254,7 @@ void add_names(const SetTable& table, VtkOutput& out) {
   std::vector<VtkOutArray> names;
   for (const auto* sets : {&table.regions, &table.patches, &table.curves})
     for (const NamedSet& set : *sets) {
-      if (set.number < 0 || set.name == default_set_name(set.kind, set.number)) continue;
+      if (set.number < 0 || !set.is_given) continue;
       names.push_back(int_array(set.name.c_str(), 1));
       names.back().ints = {set.number, dimension_of(set.kind)};
     }

@@ -100,16 +100,13 @@ std::vector<ChangedName> apply_name_rules(const NameRules& rules, SetTable& tabl
     for (NamedSet& set : *kind) sets.push_back(&set);
   std::vector<std::string> given;
   for (const NamedSet* set : sets) given.push_back(set->name);
-  const auto is_default = [](const NamedSet& set) {
-    return set.kind != SetKind::PatchGroup && set.name == default_set_name(set.kind, set.number);
-  };
   NameFitter fitter(rules);
   std::vector<NamedSet*> unnamed;
   for (NamedSet* set : sets)
-    if (is_default(*set))
-      unnamed.push_back(set);
-    else
+    if (set->is_given)
       fitter.fit(*set);
+    else
+      unnamed.push_back(set);
   for (NamedSet* set : unnamed) fitter.fit(*set);
   std::vector<ChangedName> changed;
   for (std::size_t i = 0; i < sets.size(); ++i)

@@ -32,8 +32,8 @@ std::vector<NamedSet> group(SetKind kind, std::size_t count, const std::vector<s
   std::vector<NamedSet> sets;
   for (auto& [number, members] : groups) {
     const std::string* name = find_name(names, number);
-    sets.push_back(
-        {kind, name ? *name : default_set_name(kind, number), number, std::move(members)});
+    sets.push_back({kind, name ? *name : default_set_name(kind, number), number, std::move(members),
+                    name != nullptr});
   }
   return sets;
 }
@@ -55,7 +55,7 @@ std::vector<NamedSet> group_patches(const std::vector<NamedSet>& patches) {
   std::vector<NamedSet> groups;
   for (const auto& [name, members] : parts) {
     if (members.size() < 2) continue;
-    NamedSet& set = groups.emplace_back(NamedSet{SetKind::PatchGroup, name, -1, {}});
+    NamedSet& set = groups.emplace_back(NamedSet{SetKind::PatchGroup, name, -1, {}, true});
     for (const NamedSet* patch : members)
       set.members.insert(set.members.end(), patch->members.begin(), patch->members.end());
     std::sort(set.members.begin(), set.members.end());

@@ -12,6 +12,7 @@ namespace hexwright::io {
 
 std::string abaqus_text(const HexMesh& mesh, const SetTable& table);
 std::string ansys_text(const HexMesh& mesh, const SetTable& table);
+std::string exodus_bytes(const HexMesh& mesh, const SetTable& table);
 std::string lsdyna_text(const HexMesh& mesh, const SetTable& table);
 std::string mfem_text(const HexMesh& mesh, const SetTable& table);
 std::string nastran_text(const HexMesh& mesh, const SetTable& table);
@@ -20,6 +21,7 @@ std::vector<FolderFile> openfoam_files(const HexMesh& mesh, const SetTable& tabl
 
 NameRules abaqus_names();
 NameRules ansys_names();
+NameRules exodus_names();
 NameRules lsdyna_names();
 NameRules mfem_names();
 NameRules nastran_names();
