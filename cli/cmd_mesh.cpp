@@ -21,7 +21,7 @@ namespace {
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
   std::string input, output, report, picture, grid, features;
-  bool no_loop = false;
+  bool no_loop = false, is_strict = false;
   MeshOptions options;
 };
 
@@ -49,9 +49,11 @@ void run(const MeshCommand& cmd, Program& program) {
   // Grid files have no axes of their own.
   if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
   load_features(cmd.features, surface, options.fit.features);
-  const MeshResult result =
+  MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
+  if (cmd.is_strict)
+    result.failures.insert(result.failures.end(), result.warnings.begin(), result.warnings.end());
 
   if (result.mesh.num_hexes() > 0) {
     write_mesh_with_quality(cmd.output, result.mesh);
@@ -89,6 +91,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
                   "are evened out; 0 = never even out")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  sub->add_flag("--strict", cmd->is_strict, "Whatever is warned of fails the gate (exit code 1)");
   sub->add_option("--rounds", cmd->options.max_rounds, "At most so many refinements")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();

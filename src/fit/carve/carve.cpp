@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -21,10 +22,20 @@ using fitting::HexFilling;
 using fitting::SetScene;
 using fitting::SetTopology;
 
-// Drops face-connected components of the set with less than `share` of the largest one's volume;
-// returns how many remain.
+// Below this volume components of the set are crumbs: a share of the largest one's, but as many as
+// the surface has solids are none.
+double least_volume(std::vector<double> volume, const CarveOptions& options) {
+  std::sort(volume.begin(), volume.end(), std::greater<>());
+  const double least = options.min_component_share * volume.front();
+  const bool is_known =
+      options.side != Side::Outside && options.expected && options.expected->is_known;
+  if (!is_known || options.expected->num_solids == 0) return least;
+  return std::min(least, volume[std::min(options.expected->num_solids, volume.size()) - 1]);
+}
+
+// Drops face-connected components of the set that are crumbs; returns how many remain.
 std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neighbors,
-                                  const HexFilling& filling, double share,
+                                  const HexFilling& filling, const CarveOptions& options,
                                   std::vector<char>& is_kept) {
   std::vector<int> component(mesh.num_hexes(), -1);
   std::vector<double> volume;
@@ -48,7 +59,7 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
     }
   }
   if (volume.empty()) return 0;
-  const double least = share * *std::max_element(volume.begin(), volume.end());
+  const double least = least_volume(volume, options);
   for (std::size_t h = 0; h < is_kept.size(); ++h)
     if (is_kept[h] && volume[static_cast<std::size_t>(component[h])] < least) is_kept[h] = 0;
   return static_cast<std::size_t>(
@@ -112,8 +123,8 @@ KeptSet complete_set(const SetScene& scene, std::vector<char> in_set, const Carv
   kept.in_set = std::move(in_set);
   kept.repair = fitting::repair_set(scene.mesh, scene.vert_to_hex, scene.neighbors, scene.filling,
                                     scene.visible, kept.in_set);
-  kept.num_components = drop_small_components(scene.mesh, scene.neighbors, scene.filling,
-                                              options.min_component_share, kept.in_set);
+  kept.num_components =
+      drop_small_components(scene.mesh, scene.neighbors, scene.filling, options, kept.in_set);
   kept.topology = fitting::compute_set_topology(scene.mesh, scene.neighbors, kept.in_set);
   return kept;
 }
