@@ -23,6 +23,7 @@ namespace {
 struct MeshCommand {
   std::string input, output, format, report, picture, view, grid, features;
   std::vector<std::string> patches;
+  bool is_strict = false;
   MeshOptions options;
 };
 
@@ -52,9 +53,11 @@ void run(const MeshCommand& cmd, Program& program) {
   if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
   load_features(cmd.features, as_read, options.target.features);
   const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
-  const MeshResult result =
+  MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
+  if (cmd.is_strict)
+    result.failures.insert(result.failures.end(), result.warnings.begin(), result.warnings.end());
 
   RunInfo info{cmd.input, cmd.output, num_threads(), {}};
   if (result.mesh.num_hexes() > 0) {
@@ -81,6 +84,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
       ->required();
   add_options(*sub, make_option_table(cmd->options));
+  sub->add_flag("--strict", cmd->is_strict, "Whatever is warned of fails the gate (exit code 1)");
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
   add_format_option(*sub, cmd->format);

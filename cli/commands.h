@@ -30,6 +30,7 @@ void add_complete_command(CLI::App& app, Program& program);
 void add_dual_command(CLI::App& app, Program& program);
 void add_fit_command(CLI::App& app, Program& program);
 void add_improve_command(CLI::App& app, Program& program);
+void add_inspect_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_picture_command(CLI::App& app, Program& program);

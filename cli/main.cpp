@@ -44,6 +44,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_dual_command(app, program);
   add_fit_command(app, program);
   add_improve_command(app, program);
+  add_inspect_command(app, program);
   add_check_command(app, program);
   add_convert_command(app, program);
   add_picture_command(app, program);

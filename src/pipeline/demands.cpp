@@ -1,6 +1,8 @@
 // The demands, a row each.
 #include "pipeline/demands.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace hexwright {
@@ -77,6 +79,38 @@ std::string say_components(const RoundInput& input, const Round& round) {
       num_components, input.target.expected.num_components);
 }
 
+/// More of the volume than this is missing or too much: a failure, or a warning.
+constexpr double kVolumeGate = 0.02, kVolumeGoal = 0.005;
+
+bool is_volume_within_gate(const RoundInput& input, const Round& round) {
+  return volume_off(input, round) <= kVolumeGate;
+}
+
+bool is_volume_near(const RoundInput& input, const Round& round) {
+  return volume_off(input, round) <= kVolumeGoal;
+}
+
+std::string say_volume(const RoundInput& input, const Round& round, double limit) {
+  return fmt::format("the mesh has {:.3g}% {} volume than the surface encloses, beyond {:.2g}%: {}",
+                     100 * volume_off(input, round),
+                     *round.verdict.volume_error > 0 ? "more" : "less", 100 * limit,
+                     "parts are thin beside the tolerance; lower it");
+}
+
+std::string say_volume_beyond_gate(const RoundInput& input, const Round& round) {
+  return is_volume_within_gate(input, round) ? std::string()
+                                             : say_volume(input, round, kVolumeGate);
+}
+
+std::string say_volume_off(const RoundInput& input, const Round& round) {
+  const bool is_said = is_volume_near(input, round) || !is_volume_within_gate(input, round);
+  return is_said ? std::string() : say_volume(input, round, kVolumeGoal);
+}
+
+std::vector<Vec3> places_thin(const RoundInput&, const Round& round) { return round.thin_misses; }
+
+bool is_volume_curable(const RoundInput&, const Round& round) { return !round.thin_misses.empty(); }
+
 bool has_least_quality(const RoundInput& input, const Round& round) {
   return round.verdict.quality.min_scaled_jacobian >= input.options.min_quality;
 }
@@ -143,6 +177,13 @@ constexpr Demand kDemands[] = {
      .places = places_lost,
      .sentence = say_components,
      .severity = Severity::Failure},
+    {.name = "volume",
+     .is_met = is_volume_within_gate,
+     .shortfall = volume_off,
+     .places = places_thin,
+     .is_curable = is_volume_curable,
+     .sentence = say_volume_beyond_gate,
+     .severity = Severity::Failure},
     {.name = "within_tolerance",
      .is_met = is_within_tolerance,
      .shortfall = distance_beyond_tolerance,
@@ -157,6 +198,11 @@ constexpr Demand kDemands[] = {
      .is_curable = are_features_curable,
      .sentence = say_features},
     {.name = "mean", .is_met = meets_mean, .shortfall = mean_beyond_goal, .is_distance = true},
+    {.name = "volume_near",
+     .is_met = is_volume_near,
+     .shortfall = volume_off,
+     .is_curable = is_volume_curable,
+     .sentence = say_volume_off},
 };
 
 /// The tolerance for distances is at most so many times the one for features (the default is five):
@@ -178,6 +224,14 @@ bool misses_features(const RoundInput& input, const Round& round) {
   const MeshOptions& options = input.options;
   return round.verdict.features && feature_share(round) < options.min_feature_share &&
          options.sizing.tolerance <= kMaxFeatureFactor * options.edge_tolerance;
+}
+
+/// Hidden walls would count in the surface's volume, and only sizing by deviation aims at the
+/// shape.
+double volume_off(const RoundInput& input, const Round& round) {
+  const bool is_known = input.options.sizing.sizing == Sizing::Deviation && is_inside(input) &&
+                        input.target.expected.is_all_boundary() && round.verdict.volume_error;
+  return is_known ? std::abs(*round.verdict.volume_error) : 0;
 }
 
 double max_distance(const Round& round) {

@@ -42,6 +42,9 @@ bool has_expected_topology(const RoundInput& input, const Round& round);
 /// Whether too little of the curves is followed.
 bool misses_features(const RoundInput& input, const Round& round);
 
+/// By how much the volume is off, as a share of the surface's; 0 where that is not known.
+double volume_off(const RoundInput& input, const Round& round);
+
 /// Two-way, as shares of the diagonal; 1 = no distance was measured.
 double max_distance(const Round& round);
 double mean_distance(const Round& round);

@@ -142,6 +142,15 @@ OptionTable make_grid_option_table(MeshOptions& options) {
   return table;
 }
 
+OptionTable make_inspect_option_table(MeshOptions& options) {
+  OptionTable table = prepare_rows(options.target.prepare);
+  table.push_back(share_row(
+      {"tolerance", "What is thinner than this share of the bounding box's diagonal is thin"},
+      options.sizing.tolerance));
+  table.push_back(feature_angle_row(options.target.features));
+  return table;
+}
+
 OptionTable make_option_table(CompleteOptions& options) { return complete_rows(options); }
 
 OptionTable make_option_table(DualStageOptions& options) {

@@ -6,6 +6,7 @@
 #include "base/stage_log.h"
 #include "pipeline/demands.h"
 #include "pipeline/feature_misses.h"
+#include "pipeline/thin_misses.h"
 
 namespace hexwright {
 namespace {
@@ -94,6 +95,7 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
     round.verdict.failures.push_back(
         "nothing of the object was kept: its parts are thinner than the grid's cells");
   find_refinable_features(input, round);
+  round.thin_misses = find_thin_misses(input, round);
   round.record = make_record(round, clock.seconds());
   return round;
 }

@@ -30,6 +30,8 @@ struct Round {
   std::vector<Vec3> refinable_features;
   /// Those among them where curves crowd, with the cells that tell them apart.
   std::vector<SizedPlace> crowded_features;
+  /// Places at walls that are too thin or too thick, when the volume is off.
+  std::vector<Vec3> thin_misses;
   std::vector<StageRecord> stages;
   RoundRecord record;
 };

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/parallel.h"
+
 namespace hexwright {
 namespace {
 
@@ -72,6 +74,30 @@ DistanceOptions distance_options(const Target& target, const JudgeOptions& optio
           .solid_only = !target.expected.is_known};
 }
 
+/// The volume within a closed surface, by the tetrahedra from a point near it to its triangles.
+double enclosed_volume(const TriMesh& surface, const Vec3& near) {
+  return parallel_reduce(
+      surface.num_tris(), 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+          const auto c = surface.corners(TriId(t));
+          sum += det(c[0] - near, c[1] - near, c[2] - near) / 6;
+        }
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+void compare_volume(Verdict& verdict, const Target& target, const JudgeOptions& options) {
+  const TriMesh& surface = target.surface();
+  if (options.quads != JudgedQuads::Boundary || !verdict.surface->is_closed_manifold() ||
+      !is_oriented_cycle(surface))
+    return;
+  const double volume = enclosed_volume(surface, target.tree.box().center());
+  if (volume > 0) verdict.volume_error = verdict.quality.total_volume / volume - 1;
+}
+
 /// Other units or another origin are the likely cause.
 void warn_of_other_place(Verdict& verdict) {
   constexpr double kFarOff = 0.5;
@@ -100,6 +126,7 @@ Verdict judge(const HexMesh& mesh, const Target& target, const JudgeOptions& opt
   context.progress("check", 0.5);
   verdict.surface = target.topology;
   compare_topology(verdict, options);
+  compare_volume(verdict, target, options);
   verdict.distance = measure_distance(mesh, target.tree, distance_options(target, options));
   warn_of_other_place(verdict);
   context.check_cancelled();

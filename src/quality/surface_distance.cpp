@@ -27,14 +27,15 @@ constexpr std::size_t kGrain = 1024;
 // rounding.
 constexpr double kSlack = 1 + 1e-9;
 
-/// Samples nearer than this share of the diagonal always count: only far ones are worth a test.
+/// Samples nearer than this share of the diagonal are not worth a test for the means.
 constexpr double kTrustedDistance = 0.001;
+/// Nor are those nearer than this for the maximum: beside an edge between wall and surface the two
+/// cannot be told apart (bounds_solid_near).
+constexpr double kRounding = 1e-4;
 
-/// Far samples this near to one that was found to count, as a share of the diagonal, count as
-/// well: tests take long where the winding number does, on needles. Errs on the side of counting.
-constexpr double kCountingRadius = 0.004;
-/// Tests per chunk of samples; the last one's outcome holds for the rest.
-constexpr int kMaxTests = 16;
+/// For the means, far samples this near to one that was tested, as a share of the diagonal, are
+/// taken to be as that one: tests take long where the winding number does, on needles.
+constexpr double kSameRadius = 0.004;
 
 /// A boundary this many times as large as the surface is sampled relative to its own size.
 constexpr double kFarLarger = 3;
@@ -44,8 +45,10 @@ struct Target {
   double hot_distance = 0;  // infinity when hot samples are not wanted
   // Says that a sample far from the target is right to be there.
   FunctionRef<bool(const Vec3& p, double distance)> is_excused;
-  double trusted_distance = 0;
-  double counting_radius = 0;
+  bool has_excuses = false;     // whether to ask
+  double trusted_distance = 0;  // up to here samples count in the means unasked,
+  double rounding = 0;          // and up to here in the maximum
+  double same_radius = 0;
 };
 
 /// Whether the winding number passes 1/2 nearer to the boundary's point p than any surface, at d:
@@ -85,7 +88,7 @@ class SampleMeter {
 
   void add(const Vec3& p, double weight) {
     const double d = distance_to_target(p);
-    if (d > target_.trusted_distance && !counts(p, d)) {
+    if (!counts(p, d)) {
       partial_.excused_weight += weight;
       return;
     }
@@ -100,12 +103,14 @@ class SampleMeter {
   const Partial& partial() const { return partial_; }
 
  private:
-  /// Whether a far sample counts. The tests of a meter are limited: the samples of a chunk are
-  /// neighbours, and on needles a winding number takes as long as thousands of distances.
+  /// Whether a sample counts. What would be the largest so far, or a place to refine, is tested
+  /// itself.
   bool counts(const Vec3& p, double d) {
-    const bool is_near = last_tested_ && distance(p, *last_tested_) < target_.counting_radius;
-    if ((is_near && last_counts_) || num_tests_ >= kMaxTests) return last_counts_;
-    ++num_tests_;
+    if (!target_.has_excuses) return true;
+    const bool matters = d > std::max(partial_.max, target_.rounding) || d > target_.hot_distance;
+    if (!matters && d <= target_.trusted_distance) return true;
+    const bool is_near = last_tested_ && distance(p, *last_tested_) < target_.same_radius;
+    if (is_near && !matters) return last_counts_;
     last_tested_ = p;
     return last_counts_ = !target_.is_excused(p, d);
   }
@@ -128,7 +133,6 @@ class SampleMeter {
   double previous_distance_ = 0;
   std::optional<Vec3> last_tested_;
   bool last_counts_ = true;
-  int num_tests_ = 0;
 };
 
 Partial measure(const TriMesh& sampled, const Target& target, double spacing) {
@@ -174,23 +178,22 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const bool is_far_larger = boundary.box().diagonal() > kFarLarger * diagonal;
   const double boundary_spacing =
       is_far_larger ? options.spacing * boundary.box().diagonal() : spacing;
-  const double trusted =
-      options.solid_only ? kTrustedDistance * diagonal : std::numeric_limits<double>::infinity();
   const auto is_off_solid = [&](const Vec3& p, double) {
     const auto at = surface.closest(p);
-    return !at || !bounds_solid(surface, at->tri, p);
+    return !at || !bounds_solid_near(surface, at->tri, p);
   };
   const auto closes_hole = [&](const Vec3& p, double d) {
     return is_closing_hole(boundary, surface, p, d);
   };
-  const double radius = kCountingRadius * diagonal;
-  Partial to_mesh =
-      measure(surface.surface(), {boundary, hot, is_off_solid, trusted, radius}, spacing);
+  const double trusted = kTrustedDistance * diagonal, rounding = kRounding * diagonal,
+               radius = kSameRadius * diagonal;
+  Partial to_mesh = measure(
+      surface.surface(),
+      {boundary, hot, is_off_solid, options.solid_only, trusted, rounding, radius}, spacing);
   // The winding number of a closed surface changes on it only: there is no hole to close.
-  const double trusted_off_surface =
-      is_oriented_cycle(surface.surface()) ? std::numeric_limits<double>::infinity() : trusted;
+  const bool has_holes = options.solid_only && !is_oriented_cycle(surface.surface());
   const Partial to_surface =
-      measure(boundary.surface(), {surface, hot, closes_hole, trusted_off_surface, radius},
+      measure(boundary.surface(), {surface, hot, closes_hole, has_holes, trusted, rounding, radius},
               boundary_spacing);
 
   SurfaceDistance result;

@@ -121,6 +121,7 @@ std::string verdict_to_json(const Verdict& verdict, int indent) {
                {"warnings", verdict.warnings},
                {"topology", to_json(verdict.topology)},
                {"quality", to_json(verdict.quality)}};
+  if (verdict.volume_error) json["volume_error"] = *verdict.volume_error;
   if (verdict.distance) json["distance"] = to_json(*verdict.distance);
   if (verdict.features) json["features"] = to_json(*verdict.features);
   if (verdict.surface) json["surface"] = to_json(*verdict.surface);

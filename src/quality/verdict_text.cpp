@@ -31,7 +31,8 @@ std::string line(const char* label, const std::string& text) {
 }
 
 /// What there is, then its shape; the genus only where the boundary is a manifold and has one.
-std::string topology_lines(const TopologyReport& t) {
+std::string topology_lines(const Verdict& verdict) {
+  const TopologyReport& t = verdict.topology;
   std::string text =
       line("mesh", fmt::format("{}, {}, {}", counted(t.num_hexes, "hex", "hexes"),
                                counted(t.num_verts, "vertex", "vertices"),
@@ -40,7 +41,16 @@ std::string topology_lines(const TopologyReport& t) {
       fmt::format("{}, {}", counted(t.num_components, "component", "components"),
                   counted(t.num_boundary_components, "boundary surface", "boundary surfaces"));
   if (t.is_valid()) shape += fmt::format(", genus {}; conforming and manifold", t.genus());
-  return text + line("topology", shape);
+  text += line("topology", shape);
+  const auto& surface = verdict.surface;
+  const bool is_other =
+      surface && surface->is_closed_manifold() && t.is_valid() &&
+      (surface->num_components != t.num_boundary_components || surface->genus() != t.genus());
+  if (is_other)
+    text += line("", fmt::format("NOT the surface's: it has {} and genus {}",
+                                 counted(surface->num_components, "component", "components"),
+                                 surface->genus()));
+  return text;
 }
 
 /// Unproven hexes are counted even when no corner is inverted: solvers integrate inside.
@@ -55,7 +65,15 @@ std::string quality_lines(const QualitySummary& q) {
                    ? "0 inverted; the Jacobian is proven positive inside every hex"
                    : fmt::format("{} inverted; the Jacobian is not proven positive inside {}",
                                  grouped(q.num_inverted), counted(num_unproven, "hex", "hexes")));
-  return text + line("volume", fmt::format("{:.6g}", q.total_volume));
+  return text;
+}
+
+std::string volume_line(const Verdict& v) {
+  std::string text = fmt::format("{:.6g}", v.quality.total_volume);
+  if (v.volume_error)
+    text += fmt::format(", {:.3f} % {} than the surface's", 100 * std::abs(*v.volume_error),
+                        *v.volume_error > 0 ? "more" : "less");
+  return line("volume", text);
 }
 
 std::string distance_lines(const SurfaceDistance& d) {
@@ -68,7 +86,8 @@ std::string distance_lines(const SurfaceDistance& d) {
 }
 
 std::string feature_lines(const FeatureRecovery& f) {
-  if (!(f.total_length > 0) && f.num_corners == 0) return line("features", "none on the surface");
+  if (!(f.total_length > 0) && f.num_corners == 0)
+    return line("features", "none on the surface long enough to count");
   return line("features",
               fmt::format("{:.2f} % of their length, {} of {} corners", 100 * f.length_share,
                           grouped(f.num_corners_recovered), grouped(f.num_corners)));
@@ -110,7 +129,8 @@ std::string verdict_to_text(const Verdict& verdict) {
 }
 
 std::string figures_to_text(const Verdict& verdict) {
-  std::string text = topology_lines(verdict.topology) + quality_lines(verdict.quality);
+  std::string text = topology_lines(verdict) + quality_lines(verdict.quality);
+  if (verdict.quality.num_hexes > 0) text += volume_line(verdict);
   if (verdict.distance) text += distance_lines(*verdict.distance);
   if (verdict.features) text += feature_lines(*verdict.features);
   return text;

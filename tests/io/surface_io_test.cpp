@@ -46,6 +46,53 @@ TEST(ReadSurface, ReadsEveryBundledModel) {
   }
 }
 
+/// A gzip file without compression, of as many members as there are texts (RFC 1951, 1952).
+std::string gzip_of(const std::vector<std::string>& texts) {
+  std::string out;
+  const auto put = [&](std::uint32_t value, int num_bytes) {
+    for (int k = 0; k < num_bytes; ++k) out += static_cast<char>(value >> (8 * k) & 255);
+  };
+  for (const std::string& text : texts) {
+    out += std::string("\x1f\x8b\x08\0\0\0\0\0\0\xff\x01", 11);  // one stored block, the last
+    put(static_cast<std::uint32_t>(text.size()), 2);
+    put(~static_cast<std::uint32_t>(text.size()), 2);
+    out += text;
+    std::uint32_t crc = ~0u;
+    for (unsigned char c : text) {
+      crc ^= c;
+      for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    put(~crc, 4);
+    put(static_cast<std::uint32_t>(text.size()), 4);
+  }
+  return out;
+}
+
+TEST(ReadSurface, PackedFilesAreReadWhateverTheirName) {
+  const std::string verts = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const TempFolder folder;
+  const std::string packed = gzip_of({verts, faces});
+  const SurfaceFile named = read_surface(folder.write("tet.obj.gz", packed));
+  EXPECT_EQ(named.mesh.num_tris(), 4u);
+  EXPECT_TRUE(named.warnings.empty());
+  const SurfaceFile misnamed = read_surface(folder.write("tet.obj", packed));
+  EXPECT_EQ(misnamed.mesh.num_tris(), 4u);
+  ASSERT_EQ(misnamed.warnings.size(), 1u);
+  EXPECT_NE(misnamed.warnings[0].find("gzip"), std::string::npos);
+  for (std::size_t size : {packed.size() - 3, packed.size() / 2, std::size_t{12}})
+    EXPECT_THROW(read_surface(folder.write("cut.obj.gz", packed.substr(0, size))), Error) << size;
+  std::string damaged = packed;
+  damaged[20] = 'x';
+  EXPECT_THROW(read_surface(folder.write("bad.obj.gz", damaged)), Error);
+  try {
+    read_surface(folder.write("archive.stl", std::string("PK\x03\x04") + std::string(99, 'x')));
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("ZIP archive"), std::string::npos) << e.what();
+  }
+}
+
 TEST(ReadSurface, OddlyWrittenCubesAreWholeCubes) {
   for (const char* name : {"crlf_tabs_comments.obj", "negative_indices.obj", "quads.obj"}) {
     const TriMesh mesh = read_surface(bundled("bad") / name).mesh;

@@ -86,6 +86,29 @@ TEST_F(GateTest, DistanceWarnsThenFails) {
   EXPECT_NE(failures[0].find("gate's 2%"), std::string::npos) << failures[0];
 }
 
+TEST_F(GateTest, VolumeWarnsThenFailsWhereItIsKnown) {
+  struct Step {
+    double error;
+    std::size_t num_failures, num_warnings;
+  };
+  for (const Step& step :
+       {Step{0.004, 0, 0}, {-0.006, 0, 1}, {0.019, 0, 1}, {-0.021, 1, 0}, {0.5, 1, 0}}) {
+    MeshResult off = good_;
+    off.verdict.volume_error = step.error;
+    const auto failures = failures_of(off);
+    EXPECT_EQ(failures.size(), step.num_failures) << step.error;
+    EXPECT_EQ(warnings_.size(), step.num_warnings) << step.error;
+    if (step.error == -0.021) {
+      EXPECT_NE(failures.at(0).find("2.1% less volume"), std::string::npos) << failures[0];
+    }
+    EXPECT_EQ(is_better(input(), round_of(good_), round_of(off)), std::abs(step.error) > 0.005);
+  }
+  MeshResult off = good_;
+  off.verdict.volume_error = 0.5;
+  expected_.num_hidden = 1;  // the surface's volume counts what lies hidden
+  EXPECT_TRUE(failures_of(off).empty());
+}
+
 // The paper's sizing and meshes around the object have no goal for the distance to miss.
 TEST_F(GateTest, DistanceIsNoGateWithoutADeviationSizingOrOutside) {
   options_.sizing.sizing = Sizing::Thickness;

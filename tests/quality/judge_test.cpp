@@ -40,6 +40,17 @@ TEST(Judge, WithoutASurfaceSaysNothingOfIt) {
   EXPECT_FALSE(verdict.distance || verdict.features || verdict.surface);
 }
 
+TEST(Judge, TellsByHowMuchTheVolumeIsOff) {
+  EXPECT_NEAR(judge_cube(cube_mesh(4)).volume_error.value(), 0, 1e-12);
+  HexMesh flat = cube_mesh(4);
+  for (Vec3& p : flat.positions) p.z *= 0.9;
+  EXPECT_NEAR(judge_cube(flat).volume_error.value(), -0.1, 1e-12);
+  // Without a closed surface there is none to compare with.
+  TriMesh open = test::unit_cube_surface();
+  open.tris.resize(11);
+  EXPECT_FALSE(judge(flat, SurfaceTree(open), {}, {}).volume_error);
+}
+
 TEST(Judge, AMovedEdgeIsALostFeature) {
   // One edge of the cube (x = y = 0) is chamfered by half a percent of the diagonal.
   HexMesh mesh = cube_mesh(4);

@@ -264,6 +264,56 @@ TEST(SurfaceDistance, LeavesOutTheMeshThatClosesAHole) {
   EXPECT_GT(measure_distance(mesh, tree, options).max_to_surface, 0.2);
 }
 
+TriMesh box_surface(const Vec3& lo, const Vec3& hi) {
+  TriMesh mesh = test::unit_cube_surface();
+  for (Vec3& p : mesh.positions)
+    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
+  return mesh;
+}
+
+/// The unit cells of a lattice of 10 x 10 x 10 within either of two boxes.
+HexMesh cells_within(const Box3& a, const Box3& b) {
+  const HexMesh all = test::box_hex_mesh(10, 10, 10);
+  HexMesh mesh;
+  mesh.positions = all.positions;
+  for (const auto& hex : all.hexes) {
+    const Vec3 center = (all.positions[hex[0]] + all.positions[hex[6]]) / 2;
+    if (a.contains(center) || b.contains(center)) mesh.hexes.push_back(hex);
+  }
+  return mesh;
+}
+
+// Two boxes that cross, with their walls in each other, and the perfect mesh of their union: what
+// lies inside is no distance, however large a part of the surface it is and however it is cut into
+// chunks. A mesh that lacks a corner is as far off as it is.
+TEST(SurfaceDistance, HiddenWallsChangeNoFigure) {
+  const Box3 plate{{0, 0, 1}, {10, 10, 3}}, post{{3, 3, 0}, {7, 7, 10}};
+  TriMesh crossing = box_surface(plate.lo, plate.hi);
+  for (const TriMesh& more : {box_surface(post.lo, post.hi)}) {
+    const std::size_t base = crossing.num_verts();
+    for (const Vec3& p : more.positions) crossing.positions.push_back(p);
+    for (const auto& t : more.tris)
+      crossing.tris.push_back(
+          {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+  }
+  const SurfaceTree tree(crossing);
+  HexMesh mesh = cells_within(plate, post);
+  for (double spacing : {0.01, 0.004, 0.0013}) {
+    DistanceOptions options;
+    options.spacing = spacing;
+    options.hot_threshold = 0.001;
+    const SurfaceDistance d = measure_distance(mesh, tree, options);
+    EXPECT_LT(d.max_two_way(), 1.5e-4) << spacing;
+    EXPECT_TRUE(d.hot.empty());
+    EXPECT_NEAR(d.ignored_share, 64.0 / (280 + 192), 0.02);
+  }
+  for (VertId v : mesh.positions.ids())
+    if (mesh.positions[v] == Vec3{3, 3, 10}) mesh.positions[v].z = 9;
+  const double missing = measure_distance(mesh, tree, {}).max_to_mesh * tree.diagonal();
+  EXPECT_GT(missing, 0.3);
+  EXPECT_LT(missing, 1);
+}
+
 // A miss stays a miss: the surface bounds the solid there.
 TEST(SurfaceDistance, CountsSolidThatTheMeshLacks) {
   const SurfaceTree tree(test::unit_cube_surface());

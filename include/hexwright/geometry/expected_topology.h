@@ -12,6 +12,7 @@ namespace hexwright {
 struct ExpectedTopology {
   bool is_known = false;
   std::size_t num_components = 0;  ///< of the boundary
+  std::size_t num_solids = 0;      ///< those of them that point outwards: the rest are cavities
   std::size_t num_hidden = 0;      ///< components of the surface that lie inside the solid
   long euler_characteristic = 0;   ///< of the boundary
   /// Every triangle separates inside from outside.

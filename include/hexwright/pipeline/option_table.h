@@ -44,6 +44,8 @@ using OptionTable = std::vector<NamedOption>;
 OptionTable make_option_table(MeshOptions& options);
 /// Of the grid alone: sizing and features.
 OptionTable make_grid_option_table(MeshOptions& options);
+/// Of `hexwright inspect`: what decides what a surface becomes before it is meshed.
+OptionTable make_inspect_option_table(MeshOptions& options);
 OptionTable make_option_table(CompleteOptions& options);
 OptionTable make_option_table(DualStageOptions& options);
 OptionTable make_option_table(FitStageOptions& options);

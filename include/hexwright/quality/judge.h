@@ -72,6 +72,9 @@ struct Verdict {
   QualitySummary quality;
   std::optional<SurfaceDistance> distance;  ///< with a surface only
   std::optional<FeatureRecovery> features;
+  /// By how much of the volume within the surface the mesh has more, or less when negative: where
+  /// the surface is closed, manifold and oriented, and the mesh's whole boundary stands for it.
+  std::optional<double> volume_error;
   std::optional<SurfaceTopology> surface;  ///< to compare the mesh's components and genus with
   std::vector<std::string>
       failures;  ///< why it is not valid, one sentence each; warnings are not here

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -21,11 +22,23 @@ using fitting::HexFilling;
 using fitting::SetScene;
 using fitting::SetTopology;
 
-// Drops face-connected components of the set with less than `share` of the largest one's volume;
-// returns how many remain.
-std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neighbors,
-                                  const HexFilling& filling, double share,
+// What all sets of one carve are made from.
+struct CarveScene : SetScene {
+  std::size_t num_solids = 0;  // that the set should have; 0 = not known
+};
+
+// Below this volume components of the set are crumbs: a share of the largest one's, but as many as
+// the surface has solids are none.
+double least_volume(std::vector<double> volume, std::size_t num_solids, double share) {
+  std::sort(volume.begin(), volume.end(), std::greater<>());
+  const double least = share * volume.front();
+  return num_solids == 0 ? least : std::min(least, volume[std::min(num_solids, volume.size()) - 1]);
+}
+
+// Drops face-connected components of the set that are crumbs; returns how many remain.
+std::size_t drop_small_components(const CarveScene& scene, double share,
                                   std::vector<char>& is_kept) {
+  const HexMesh& mesh = scene.mesh;
   std::vector<int> component(mesh.num_hexes(), -1);
   std::vector<double> volume;
   std::vector<HexId> stack;
@@ -38,9 +51,9 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
     while (!stack.empty()) {
       const HexId h = stack.back();
       stack.pop_back();
-      const double e = filling.edge[h];
+      const double e = scene.filling.edge[h];
       volume.back() += e * e * e;
-      for (HexId other : neighbors.neighbor[h]) {
+      for (HexId other : scene.neighbors.neighbor[h]) {
         if (!other.is_valid() || !is_kept[other.index()] || component[other.index()] >= 0) continue;
         component[other.index()] = c;
         stack.push_back(other);
@@ -48,7 +61,7 @@ std::size_t drop_small_components(const HexMesh& mesh, const HexNeighbors& neigh
     }
   }
   if (volume.empty()) return 0;
-  const double least = share * *std::max_element(volume.begin(), volume.end());
+  const double least = least_volume(volume, scene.num_solids, share);
   for (std::size_t h = 0; h < is_kept.size(); ++h)
     if (is_kept[h] && volume[static_cast<std::size_t>(component[h])] < least) is_kept[h] = 0;
   return static_cast<std::size_t>(
@@ -107,18 +120,18 @@ struct KeptSet {
 };
 
 // Makes the set manifold, drops crumbs and counts.
-KeptSet complete_set(const SetScene& scene, std::vector<char> in_set, const CarveOptions& options) {
+KeptSet complete_set(const CarveScene& scene, std::vector<char> in_set,
+                     const CarveOptions& options) {
   KeptSet kept;
   kept.in_set = std::move(in_set);
   kept.repair = fitting::repair_set(scene.mesh, scene.vert_to_hex, scene.neighbors, scene.filling,
                                     scene.visible, kept.in_set);
-  kept.num_components = drop_small_components(scene.mesh, scene.neighbors, scene.filling,
-                                              options.min_component_share, kept.in_set);
+  kept.num_components = drop_small_components(scene, options.min_component_share, kept.in_set);
   kept.topology = fitting::compute_set_topology(scene.mesh, scene.neighbors, kept.in_set);
   return kept;
 }
 
-KeptSet keep_above(const SetScene& scene, double threshold, const CarveOptions& options) {
+KeptSet keep_above(const CarveScene& scene, double threshold, const CarveOptions& options) {
   std::vector<char> in_set(scene.mesh.num_hexes());
   for (HexId h : scene.mesh.hexes.ids()) in_set[h.index()] = scene.filling.fraction[h] > threshold;
   KeptSet kept = complete_set(scene, std::move(in_set), options);
@@ -148,8 +161,8 @@ std::vector<std::vector<HexId>> group_lost(const HexMesh& mesh, const std::vecto
 }
 
 // The set with what touches the lost hexes kept (or dropped, where all is kept) from a quarter on.
-KeptSet keep_around(const SetScene& scene, std::span<const HexId> lost, const CarveOptions& options,
-                    const KeptSet& kept) {
+KeptSet keep_around(const CarveScene& scene, std::span<const HexId> lost,
+                    const CarveOptions& options, const KeptSet& kept) {
   constexpr float kLeast = 0.25f;
   std::vector<char> in_set = kept.in_set;
   for (HexId h : lost) {
@@ -170,7 +183,7 @@ KeptSet keep_around(const SetScene& scene, std::span<const HexId> lost, const Ca
 // over, along all of their length: the set has the right topology without them. Around lost places
 // less suffices. Kept as it was where that loses no less or does harm to the topology: first all
 // places together, then, if that did harm, the largest ones each by itself.
-void recover_lost(const SetScene& scene, const ExpectedTopology& expected,
+void recover_lost(const CarveScene& scene, const ExpectedTopology& expected,
                   const CarveOptions& options, KeptSet& kept) {
   constexpr std::size_t kMaxPieces = 12;
   if (!expected.is_known) return;
@@ -195,7 +208,7 @@ void recover_lost(const SetScene& scene, const ExpectedTopology& expected,
 // bridged. Lower thresholds keep such walls whole, higher ones keep gaps open. The first threshold
 // with the expected topology, or else the best, gives the topology; the set is then brought back to
 // the filling without changing it.
-void mend_topology(const SetScene& scene, const ExpectedTopology& expected,
+void mend_topology(const CarveScene& scene, const ExpectedTopology& expected,
                    const CarveOptions& options, KeptSet& kept) {
   constexpr double kThresholds[] = {0.4, 0.3, 0.2, 0.15, 0.1, 0.6, 0.7, 0.8};
   long least = count_defects(kept.topology, expected);
@@ -235,7 +248,9 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
   context.check_cancelled();
   context.progress("carve", 0.5);
 
-  const SetScene scene{background, vert_to_hex, neighbors, filling, options.visible_normal};
+  const bool is_known = expected.is_known && options.side != Side::Outside;
+  const CarveScene scene{{background, vert_to_hex, neighbors, filling, options.visible_normal},
+                         is_known ? expected.num_solids : 0};
   KeptSet kept = keep_above(scene, options.keep_fraction, options);
   recover_lost(scene, expected, options, kept);
   if (expected.is_known) mend_topology(scene, expected, options, kept);

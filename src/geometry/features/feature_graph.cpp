@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "hexwright/base/error.h"
@@ -82,6 +83,27 @@ bool is_exposed(const SurfaceTree& tree, const SurfaceEdges& edges, std::size_t 
   return false;
 }
 
+/// Whether the solid is thinner, seen from a side of the curve, than the curve's piece is long: the
+/// rim of a rod, a pin or a rib, which is no noise however short. Asked at a few edges.
+bool is_around_thin(const SurfaceTree& tree, const SurfaceEdges& edges, const FeatureCurve& curve,
+                    double length) {
+  constexpr std::size_t kNumProbes = 6;
+  const std::size_t num_edges = curve.verts.size() - 1;
+  const std::size_t step = std::max<std::size_t>(1, num_edges / kNumProbes);
+  for (std::size_t k = 0; k < num_edges; k += step) {
+    const long e = edges.find(curve.verts[k], curve.verts[k + 1]);
+    if (e < 0) return false;
+    const auto sides = edges.sides_of(static_cast<std::size_t>(e));
+    const bool is_thin = std::ranges::any_of(sides, [&](const SurfaceEdges::Side& side) {
+      const auto c = tree.surface().corners(side.tri);
+      const Vec3 center = (c[0] + c[1] + c[2]) / 3;
+      return !tree.is_inside(center - tree.normal(side.tri) * length);
+    });
+    if (!is_thin) return false;
+  }
+  return true;
+}
+
 /// With a tree only the exposed ones.
 std::vector<std::uint64_t> crease_keys(const TriMesh& surface, double angle,
                                        const SurfaceTree* tree) {
@@ -116,10 +138,11 @@ std::vector<std::uint64_t> keys_of(std::span<const std::array<VertId, 2>> edges)
 /// The graph of crease edges, from which pieces are removed.
 class CreaseGraph {
  public:
-  CreaseGraph(const TriMesh& surface, const FeatureOptions& options,
+  CreaseGraph(const TriMesh& surface, const SurfaceTree* tree, const FeatureOptions& options,
               std::span<const std::array<VertId, 2>> user_edges,
               const std::vector<std::uint64_t>& creases)
       : surface_(surface),
+        tree_(tree),
         min_turn_cosine_(std::cos(options.turn_angle)),
         min_length_(options.min_length),
         user_keys_(user_keys(surface, user_edges)),
@@ -166,7 +189,8 @@ class CreaseGraph {
                                                 neighbors_[c.verts.back()].size() == 1);
       const bool is_short =
           (is_dangling && c.length() < min_length_) || piece_length[i] < min_length_;
-      if (is_short && !has_user_edge(c)) removed.push_back(i);
+      if (is_short && !has_user_edge(c) && (is_dangling || !is_thin(c, piece_length[i])))
+        removed.push_back(i);
     }
     for (std::size_t i : removed)
       for (std::size_t k = 1; k < curves[i].verts.size(); ++k)
@@ -175,6 +199,12 @@ class CreaseGraph {
   }
 
  private:
+  bool is_thin(const FeatureCurve& curve, double length) {
+    if (!tree_) return false;
+    if (!edges_) edges_ = compute_surface_edges(surface_);
+    return is_around_thin(*tree_, *edges_, curve, length);
+  }
+
   std::size_t edge_index(VertId a, VertId b) const {
     const auto it = std::lower_bound(keys_.begin(), keys_.end(), edge_key(a, b));
     return static_cast<std::size_t>(it - keys_.begin());
@@ -239,6 +269,8 @@ class CreaseGraph {
   }
 
   const TriMesh& surface_;
+  const SurfaceTree* tree_;            // absent: nothing is known of the solid
+  std::optional<SurfaceEdges> edges_;  // made when first asked for
   double min_turn_cosine_, min_length_;
   std::vector<std::uint64_t> user_keys_;  // sorted
   std::vector<std::uint64_t> keys_;       // sorted; all crease edges, removed ones too
@@ -247,11 +279,11 @@ class CreaseGraph {
 };
 
 /// Chains are made anew after pruning: what a twig cut in two becomes one curve again.
-FeatureGraph extract(const TriMesh& surface, const FeatureOptions& options,
+FeatureGraph extract(const TriMesh& surface, const SurfaceTree* tree, const FeatureOptions& options,
                      const std::vector<std::uint64_t>& creases) {
   EdgesAlong user = find_edges_along(surface, options.extra_segments);
   user.edges.insert(user.edges.end(), options.extra_edges.begin(), options.extra_edges.end());
-  CreaseGraph graph(surface, options, user.edges, creases);
+  CreaseGraph graph(surface, tree, options, user.edges, creases);
   auto curves = graph.chain();
   for (int round = 0; round < kPruneRounds && graph.prune(curves); ++round) curves = graph.chain();
   FeatureGraph features;
@@ -282,17 +314,17 @@ std::vector<std::array<VertId, 2>> find_creases(const SurfaceTree& surface, doub
 }
 
 FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {
-  return extract(surface, options, crease_keys(surface, options.crease_angle, nullptr));
+  return extract(surface, nullptr, options, crease_keys(surface, options.crease_angle, nullptr));
 }
 
 FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options) {
   const TriMesh& mesh = surface.surface();
-  return extract(mesh, options, crease_keys(mesh, options.crease_angle, &surface));
+  return extract(mesh, &surface, options, crease_keys(mesh, options.crease_angle, &surface));
 }
 
 FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options,
                               std::span<const std::array<VertId, 2>> creases) {
-  return extract(surface.surface(), options, keys_of(creases));
+  return extract(surface.surface(), &surface, options, keys_of(creases));
 }
 
 IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,

@@ -38,6 +38,16 @@ std::vector<Component> collect_components(const TriMesh& surface, std::size_t co
   return components;
 }
 
+bool points_outwards(const TriMesh& surface, const Component& component) {
+  const Vec3 origin = surface.corners(component.tris.front())[0];
+  double volume6 = 0;
+  for (TriId t : component.tris) {
+    const auto p = surface.corners(t);
+    volume6 += det(p[0] - origin, p[1] - origin, p[2] - origin);
+  }
+  return volume6 > 0;
+}
+
 enum class Exposure { Bounding, Hidden, Mixed };
 
 constexpr std::size_t kNumSamples = 24;  // of each kind
@@ -105,6 +115,7 @@ ExpectedTopology find_expected_topology(const SurfaceTree& tree) {
       continue;
     }
     ++expected.num_components;
+    expected.num_solids += points_outwards(tree.surface(), c);
     expected.euler_characteristic += c.euler_characteristic();
   }
   expected.is_known = expected.num_components > 0;

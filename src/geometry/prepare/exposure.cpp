@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hexwright {
 namespace {
@@ -19,10 +20,14 @@ constexpr double kTowardsCentroid = 0.02;
 constexpr double kStepOfWay = 0.1;
 constexpr double kLeastStepOfDiagonal = 1e-10;
 
-bool changes_side(const SurfaceTree& surface, TriId t, const Vec3& p, double length) {
+/// The probe keeps within `reach` of p.
+bool changes_side(const SurfaceTree& surface, TriId t, const Vec3& p, double length,
+                  double reach = std::numeric_limits<double>::infinity()) {
   const auto c = surface.surface().corners(t);
   const Vec3 centroid = c[0] * (1.0 / 3) + c[1] * (1.0 / 3) + c[2] * (1.0 / 3);
-  const Vec3 probe = p + (centroid - p) * kTowardsCentroid;
+  Vec3 way = (centroid - p) * kTowardsCentroid;
+  if (norm(way) > reach) way *= reach / norm(way);
+  const Vec3 probe = p + way;
   const Vec3 step = surface.normal(t) * length;
   return surface.is_inside(probe - step) != surface.is_inside(probe + step);
 }
@@ -35,6 +40,14 @@ bool bounds_solid(const SurfaceTree& surface, TriId t, const Vec3& p) {
   if (!(size > 0)) return false;
   return changes_side(surface, t, p,
                       std::min(kStepOfTriangle * size, kStepOfDiagonal * surface.box().diagonal()));
+}
+
+bool bounds_solid_near(const SurfaceTree& surface, TriId t, const Vec3& p) {
+  const auto c = surface.surface().corners(t);
+  const double size = std::sqrt(norm(cross(c[1] - c[0], c[2] - c[0])));
+  if (!(size > 0)) return false;
+  const double step = std::min(kStepOfTriangle * size, kStepOfDiagonal * surface.box().diagonal());
+  return changes_side(surface, t, p, step, step / kStepOfWay);
 }
 
 bool bounds_solid_closely(const SurfaceTree& surface, TriId t, const Vec3& p) {

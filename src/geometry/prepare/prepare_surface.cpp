@@ -140,13 +140,30 @@ void check_volume(const TriMesh& mesh) {
     refuse_no_volume("its two sides coincide");
 }
 
+double area(const TriMesh& mesh, std::size_t begin, std::size_t end) {
+  double sum = 0;
+  for (std::size_t t = begin; t < end; ++t) {
+    const auto c = mesh.corners(TriId(t));
+    sum += norm(cross(c[1] - c[0], c[2] - c[0])) / 2;
+  }
+  return sum;
+}
+
 /// Closes the holes of a surface that is nearly closed. What is far from closed has no inside that
 /// patches could complete: two triangles would become a solid.
 void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
   judge_openness(work.mesh, diagnosis);
   if (diagnosis.num_boundary_edges == 0) return;
   if (!encloses_something(work.mesh)) refuse_no_volume("it is too open to have an inside");
+  const std::size_t num_before = work.mesh.num_tris();
   diagnosis.num_filled_holes = fill_holes(work);
+  // A sheet's hull is its patch over again: what that encloses is not meant as a solid. A half
+  // sphere has a patch of half its area.
+  constexpr double kPatchOfSheet = 0.7;
+  const double given = area(work.mesh, 0, num_before);
+  if (area(work.mesh, num_before, work.mesh.num_tris()) > kPatchOfSheet * given)
+    refuse_no_volume(
+        "it is an open sheet: to close it would take a patch nearly as large as itself");
 }
 
 /// The result in the input's coordinates, without the vertices that nothing uses.

@@ -15,7 +15,7 @@ namespace {
 /// A HyperTreeGrid by its first kilobyte, .cells by its extension or a leading number, and whatever
 /// else reads as a volume mesh as a grid of hexes with hanging nodes.
 GridFile read_grid_file(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = inner_extension(path);
   FileBytes file = read_file(path);
   const VolumeSource source = {file.bytes, file.name};
   if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; write it again");

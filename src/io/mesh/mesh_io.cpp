@@ -78,7 +78,7 @@ std::string list_formats(bool only_read) {
 /// The whole file is in memory while it is parsed: readers work on views into it.
 VolumeFile read_volume_file(const std::filesystem::path& path) {
   const FileBytes file = read_file(path);
-  return read_volume_bytes({file.bytes, file.name}, lower_extension(path));
+  return read_volume_bytes({file.bytes, file.name}, inner_extension(path));
 }
 
 std::string count_of(std::size_t count, const char* what) {

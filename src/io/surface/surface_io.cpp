@@ -74,6 +74,10 @@ std::optional<SurfaceFormat> find_format_by_extension(const FileBytes& file,
 SurfaceFormat find_format(const FileBytes& file, const std::string& extension,
                           std::vector<std::string>& warnings) {
   if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; export it again");
+  if (file.bytes.starts_with("PK\x03\x04"))
+    throw bad_file(file.name,
+                   "the content is a ZIP archive, whatever the name says; unpack it and give the "
+                   "OBJ, OFF, STL or PLY file in it");
   if (const auto found = find_format_by_content(file)) {
     if (extension != found->extension)
       warnings.push_back(
@@ -190,7 +194,10 @@ std::string ply_bytes(const TriMesh& surface) {
 SurfaceFile read_surface(const std::filesystem::path& path) {
   const io::FileBytes file = io::read_file(path);
   SurfaceFile result;
-  const auto format = io::find_format(file, io::lower_extension(path), result.warnings);
+  if (file.was_packed && io::lower_extension(path) != ".gz")
+    result.warnings.push_back(
+        "the content is packed by gzip although the name does not end in '.gz'");
+  const auto format = io::find_format(file, io::inner_extension(path), result.warnings);
   result.format = format.name;
   io::PolygonSoup soup = format.read({file.bytes, file.name, result.warnings});
   if (soup.positions.size() > io::kMaxElements)

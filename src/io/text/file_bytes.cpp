@@ -7,7 +7,48 @@
 #include <cstring>
 #include <memory>
 
+#include <zlib.h>
+
 namespace hexwright::io {
+namespace {
+
+/// No surface or mesh that fits into memory is larger.
+constexpr std::size_t kMostInflated = std::size_t{1} << 36;
+
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b\x08"); }
+
+/// All members of a gzip file, one after the other.
+std::string inflate_gzip(const std::string& packed, const std::string& name) {
+  const auto fail = [&](const char* what) {
+    return bad_file(name, std::string("the compressed file ") + what + "; pack it again");
+  };
+  z_stream stream{};
+  constexpr int kGzipOnly = 15 + 16;
+  if (inflateInit2(&stream, kGzipOnly) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
+  std::string out;
+  std::string buffer(std::size_t{1} << 18, '\0');
+  std::size_t begin = 0;
+  int status = Z_OK;
+  while (begin < packed.size() || status == Z_OK) {
+    if (status == Z_STREAM_END && !is_gzip(std::string_view(packed).substr(begin))) break;
+    if (status == Z_STREAM_END && inflateReset(&stream) != Z_OK) throw fail("is damaged");
+    const std::size_t piece = std::min(packed.size() - begin, std::size_t{1} << 30);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + begin));
+    stream.avail_in = static_cast<uInt>(piece);
+    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    stream.avail_out = static_cast<uInt>(buffer.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+    if (status == Z_BUF_ERROR) throw fail("ends early");
+    if (status != Z_OK && status != Z_STREAM_END) throw fail("is damaged");
+    begin += piece - stream.avail_in;
+    out.append(buffer, 0, buffer.size() - stream.avail_out);
+    if (out.size() > kMostInflated) throw fail("holds more than 64 GB");
+  }
+  return out;
+}
+
+}  // namespace
 
 FileBytes read_file(const std::filesystem::path& path) {
   const std::string name = path.string();
@@ -31,7 +72,16 @@ FileBytes read_file(const std::filesystem::path& path) {
   if (got != result.bytes.size())
     throw fail("the file could be read only in part (" + std::to_string(got) + " of " +
                std::to_string(result.bytes.size()) + " bytes); is another program writing it?");
+  if (is_gzip(result.bytes)) {
+    result.bytes = inflate_gzip(result.bytes, name);
+    result.was_packed = true;
+  }
   return result;
+}
+
+std::string inner_extension(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".gz" ? lower_extension(path.stem()) : extension;
 }
 
 /// ASCII only: extensions of known formats have no other letters, and locales must not matter.

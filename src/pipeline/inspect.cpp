@@ -1,0 +1,141 @@
+// Measures a surface as it is, then as preparation leaves it.
+#include "hexwright/pipeline/inspect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hexwright/base/error.h"
+#include "hexwright/geometry/shape_diameter.h"
+#include "hexwright/geometry/similarity.h"
+#include "hexwright/pipeline/plan.h"
+
+#include "geometry/prepare/closed_pieces.h"
+#include "geometry/prepare/surface_edges.h"
+#include "geometry/tree/triangle_contacts.h"
+
+namespace hexwright {
+namespace {
+
+/// Crossings shallower than this, in the unit frame, are contacts or rounding.
+constexpr double kCrossingDepth = 1e-6;
+/// Between samples of the walls, share of the diagonal.
+constexpr double kWallSpacing = 0.01;
+
+/// Files have no units; most parts are drawn in millimetres and are centimetres to metres long.
+std::string guess_units(double diagonal) {
+  if (diagonal < 1e-3 || diagonal > 1e5) return "of unusual size: check the units";
+  if (diagonal < 5) return "if this is a part of a machine, its units may be metres";
+  if (diagonal > 2e4) return "if this is a part of a machine, its units may be micrometres";
+  return {};
+}
+
+void count_names(const TriMesh& surface, SurfaceInspection& result) {
+  for (const std::string& name : surface.group_names) result.names.push_back({name, 0});
+  for (std::int32_t g : surface.group)
+    if (g >= 0) ++result.names[static_cast<std::size_t>(g)].num_tris;
+}
+
+/// Pieces and edges of the surface as it is, welded and oriented.
+void count_pieces(const TriMesh& mesh, SurfaceInspection& result) {
+  result.num_open_tris = mesh.num_tris();
+  for (const ClosedPiece& piece : split_closed_pieces(mesh)) {
+    ++(piece.volume6 > 0 ? result.num_solids : result.num_cavities);
+    result.num_open_tris -= piece.mesh.num_tris();
+  }
+  const SurfaceEdges edges = compute_surface_edges(mesh);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    result.num_open_edges += edges.sides_of(e).size() == 1;
+    result.num_nonmanifold_edges += edges.sides_of(e).size() > 2;
+  }
+}
+
+void find_crossings(const TriMesh& mesh, SurfaceInspection& result) {
+  const Similarity frame = compute_unit_frame(mesh);
+  const TriMesh unit = to_unit(mesh, frame);
+  const std::vector<TriPair> pairs = find_near_pairs(unit, 0, [&](TriId a, TriId b) {
+    return find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth).has_value();
+  });
+  result.num_crossings = pairs.size();
+  const std::size_t step = std::max<std::size_t>(1, pairs.size() / result.kMaxPlaces);
+  for (std::size_t i = 0; i < pairs.size() && result.crossings.size() < result.kMaxPlaces;
+       i += step) {
+    const auto at =
+        find_crossing(unit.corners(pairs[i].a), unit.corners(pairs[i].b), kCrossingDepth);
+    result.crossings.push_back({frame.to_world(*at)});
+  }
+}
+
+void find_thin(const TriMesh& mesh, double limit, const Context& context,
+               SurfaceInspection& result) {
+  const double spacing = kWallSpacing * bounding_box(mesh).diagonal();
+  std::vector<WallSample> walls = sample_opposite_walls(mesh, spacing, context);
+  std::erase_if(walls, [](const WallSample& w) { return !std::isfinite(w.inner); });
+  std::ranges::stable_sort(walls, {}, &WallSample::inner);
+  result.num_wall_samples = walls.size();
+  if (!walls.empty()) result.least_thickness = walls.front().inner;
+  for (const WallSample& w : walls) {
+    if (w.inner >= limit) break;
+    ++result.num_thin_samples;
+    // One of a neighbourhood.
+    const bool is_near = std::ranges::any_of(result.thin, [&](const InspectedPlace& p) {
+      return distance(p.position, w.point) < 5 * spacing;
+    });
+    if (!is_near && result.thin.size() < result.kMaxPlaces)
+      result.thin.push_back({w.point, w.inner});
+  }
+}
+
+double enclosed_volume(const TriMesh& mesh) {
+  const Vec3 near = bounding_box(mesh).center();
+  double sum = 0;
+  for (TriId t : mesh.tris.ids()) {
+    const auto c = mesh.corners(t);
+    sum += det(c[0] - near, c[1] - near, c[2] - near) / 6;
+  }
+  return sum;
+}
+
+void measure_object(const TriMesh& surface, const MeshOptions& options, const Context& context,
+                    SurfaceInspection& result) {
+  const Target target = make_target(surface, plan_target(options), context);
+  const TriMesh mesh = to_world(target.surface(), target.frame);
+  result.notes = target.diagnosis.notes;
+  result.warnings = target.diagnosis.warnings;
+  result.volume = enclosed_volume(mesh);
+  const double diagonal = target.frame.length_to_world(target.diagonal());
+  find_thin(mesh, options.sizing.tolerance * diagonal, context, result);
+  result.sharp_length = target.frame.length_to_world(target.features.total_length());
+  result.num_sharp_curves = target.features.curves.size();
+  result.num_corners = target.features.corners.size();
+}
+
+}  // namespace
+
+SurfaceInspection inspect_surface(const TriMesh& surface, const MeshOptions& options,
+                                  const Context& context) {
+  SurfaceInspection result;
+  result.num_verts = surface.num_verts();
+  result.num_tris = surface.num_tris();
+  result.box = bounding_box(surface);
+  result.units_guess = guess_units(result.box.diagonal());
+  count_names(surface, result);
+  Context quiet = context;  // what it says is in the result
+  quiet.on_warning = nullptr;
+  try {
+    const PreparedSurface as_is = prepare_surface(surface, {.parts = Parts::AsIs}, quiet);
+    for (TriId t : as_is.mesh.tris.ids()) {
+      const auto c = as_is.mesh.corners(t);
+      result.area += norm(cross(c[1] - c[0], c[2] - c[0])) / 2;
+    }
+    count_pieces(as_is.mesh, result);
+    result.num_open_edges = as_is.diagnosis.num_boundary_edges;
+    find_crossings(as_is.mesh, result);
+    measure_object(surface, options, quiet, result);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::BadGeometry) throw;
+    result.refusal = e.what();
+  }
+  return result;
+}
+
+}  // namespace hexwright
