@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include "hexwright/io/set_table.h"
 
 namespace hexwright {
 namespace {
@@ -34,7 +34,7 @@ std::vector<PatchId> find_face_patches(const HexMesh& mesh) {
 std::string patch_name(const HexMesh& mesh, PatchId patch) {
   const auto& names = mesh.labels.patch_names;
   const bool has_name = patch.index() < names.size() && !names[patch].empty();
-  return has_name ? names[patch] : fmt::format("patch_{}", patch.value());
+  return has_name ? names[patch] : default_set_name(SetKind::Patch, patch.value());
 }
 
 }  // namespace hexwright

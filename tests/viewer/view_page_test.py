@@ -184,7 +184,7 @@ class Step(PageTest):
         self.assertEqual(len(patches), 8)
         for i, text in enumerate(patches):
             quads = self.patches == i
-            self.assertRegex(text, rf"patch_{i}\s+{quads.sum()}, {self.mesh.area(self.quads[quads]).sum():.5g}$")
+            self.assertRegex(text, rf"PATCH_{i}\s+{quads.sum()}, {self.mesh.area(self.quads[quads]).sum():.5g}$")
         self.assertIn(str(self.num_curves), viewer.text("#curves-label"))
         self.assertIn(str(self.num_corners), viewer.text("#corners-label"))
 
@@ -193,7 +193,7 @@ class Step(PageTest):
         viewer.check("#patches li:nth-child(8) input", False)
         self.assertEqual(viewer.faces(), len(self.quads) - int((self.patches == 7).sum()))
         self.assertEqual(viewer.hexes(), len(self.mesh.hexes))
-        viewer.page.fill("#find", "patch_3")
+        viewer.page.fill("#find", "PATCH_3")
         viewer.page.click("#no-patches")
         viewer.settle()
         self.assertEqual(viewer.faces(), len(self.quads) - int(np.isin(self.patches, (3, 7)).sum()))
@@ -211,7 +211,7 @@ class Step(PageTest):
             viewer.settle()
             quads = self.patches == patch
             text = viewer.text("#picked")
-            self.assertIn(f"patch_{patch}\n", text)
+            self.assertIn(f"PATCH_{patch}\n", text)
             self.assertIn(f"{quads.sum()} quads, area {self.mesh.area(self.quads[quads]).sum():.5g}", text)
             self.assertEqual(viewer.page.locator("#patches li.chosen").count(), 1)
 
@@ -301,7 +301,7 @@ class Step(PageTest):
             viewer.page.keyboard.press("Tab")
             reached.add(viewer.page.evaluate("document.activeElement.id || document.activeElement.dataset.look || document.activeElement.dataset.cut || document.activeElement.textContent"))
         needed = {"view", "picture", "link", "reset", "theme", "help", "iso", "+x", "-z", "x", "y", "z", "peel", "low", "high", "worst", "next", "previous", "color", "edges",
-                  "pale", "curves", "corners", "irregular", "faces", "find", "patch_0", "patch_7", "region_1"}
+                  "pale", "curves", "corners", "irregular", "faces", "find", "PATCH_0", "PATCH_7", "REGION_1"}
         self.assertEqual(needed - reached, set())
         viewer.page.locator("#view").focus()
         first = viewer.screenshot()

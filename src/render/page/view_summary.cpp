@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "hexwright/io/set_table.h"
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
@@ -36,14 +36,14 @@ double quad_area(const HexMesh& mesh, const std::array<VertId, 4>& quad) {
 std::string curve_name(const HexMesh& mesh, CurveId curve) {
   const auto& names = mesh.labels.curve_names;
   const bool has_name = curve.index() < names.size() && !names[curve].empty();
-  return has_name ? names[curve] : fmt::format("curve_{}", curve.value());
+  return has_name ? names[curve] : default_set_name(SetKind::Curve, curve.value());
 }
 
 std::string region_name(const HexMesh& mesh, std::int32_t tag) {
   const auto& names = mesh.region_names;
   const bool has_name = tag >= 0 && static_cast<std::size_t>(tag) < names.size() &&
                         !names[static_cast<std::size_t>(tag)].empty();
-  return has_name ? names[static_cast<std::size_t>(tag)] : fmt::format("region_{}", tag);
+  return has_name ? names[static_cast<std::size_t>(tag)] : default_set_name(SetKind::Region, tag);
 }
 
 Json list_patches(const HexMesh& mesh) {
