@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
@@ -54,20 +53,18 @@ struct Judgement {
 };
 Judgement judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
   const Context context = program.console.start(cmd.reference);
-  JudgeOptions options;
-  if (cmd.reference.empty()) {
-    options.features = cmd.features;
-    return {std::nullopt, judge(mesh, options, context)};
-  }
+  if (cmd.reference.empty()) return {std::nullopt, judge(mesh, {}, context)};
   const TriMesh surface = load_surface(cmd.reference, program);
-  FeatureOptions features = cmd.features;
-  load_features(cmd.feature_file, surface, features);
-  PreparedSurface prepared =
-      naming_file(cmd.reference, [&] { return prepare_surface(surface, context); });
-  options.features = features_for_sizing(features, bounding_box(prepared.mesh).diagonal());
-  Judgement judgement{SurfaceTree(std::move(prepared.mesh)), {}};
-  judgement.verdict = judge(mesh, *judgement.surface, options, context);
-  return judgement;
+  TargetOptions wishes;
+  wishes.features = cmd.features;
+  load_features(cmd.feature_file, surface, wishes.features);
+  return naming_file(cmd.reference, [&] {
+    const Target target = make_target(surface, wishes, context);
+    Judgement judgement{SurfaceTree(to_world(target.surface(), target.frame)),
+                        judge(to_unit(mesh, target.frame), target, {}, context)};
+    judgement.verdict.to_world(target.frame);
+    return judgement;
+  });
 }
 
 /// A mesh that is not valid is shown too: to look at it is the way to see why. An empty one has

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -19,7 +18,7 @@ namespace {
 
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
-  FitOptions options;
+  FitStageOptions options;
   std::vector<std::string> patches;
 };
 
@@ -30,15 +29,17 @@ void run(const FitCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
-  const SurfaceTree tree = naming_file(cmd.surface, [&] {
-    PreparedSurface prepared =
-        prepare_surface(name_patches(TriMesh(surface), cmd.patches, program), context);
-    return SurfaceTree(std::move(prepared.mesh));
+  FitStageOptions wishes = cmd.options;
+  load_features(cmd.features, surface, wishes.target.features);
+  const Target target = naming_file(cmd.surface, [&] {
+    return make_target(name_patches(TriMesh(surface), cmd.patches, program), wishes.target,
+                       context);
   });
-  FitOptions options = cmd.options;
-  load_features(cmd.features, surface, options.features);
-  const FitResult result =
-      naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
+  const FitResult result = naming_file(cmd.hexes, [&] {
+    FitResult fitted = fit(to_unit(background, target.frame), target, wishes.fit, context);
+    fitted.to_world(target.frame);
+    return fitted;
+  });
   if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
   if (result.mesh.num_hexes() == 0) {
     program.console.fail(cmd.hexes +
@@ -50,9 +51,10 @@ void run(const FitCommand& cmd, Program& program) {
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
   if (!cmd.picture.empty())
     write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
-  JudgeOptions judge_options;
-  judge_options.features = features_for_sizing(options.features, tree.box().diagonal());
-  const Verdict verdict = judge(result.mesh, tree, judge_options, context);
+  JudgeOptions judged;
+  if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
+  Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
+  verdict.to_world(target.frame);
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
                                     background.num_hexes()));
   program.console.print_block(figures_to_text(verdict));

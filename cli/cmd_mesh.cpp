@@ -9,7 +9,7 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -49,8 +49,8 @@ void run(const MeshCommand& cmd, Program& program) {
   const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
-  load_features(cmd.features, as_read, options.fit.features);
+  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  load_features(cmd.features, as_read, options.target.features);
   const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });

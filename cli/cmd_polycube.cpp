@@ -11,8 +11,9 @@
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
+#include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -84,7 +85,7 @@ void run(const PolycubeCommand& cmd, Program& program) {
   options.max_edge = make_size_field(cmd, object);
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
-  const Verdict verdict = judge_polycube(result, context);
+  const Verdict& verdict = result.verdict;
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh, program.console);

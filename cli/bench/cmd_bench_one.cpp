@@ -2,7 +2,7 @@
 #include <memory>
 #include <new>
 
-#include "hexwright/render/picture_sheet.h"
+#include "hexwright/render/picture.h"
 
 #include "bench/bench_options.h"
 #include "bench/child_process.h"

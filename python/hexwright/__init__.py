@@ -4,7 +4,7 @@
 >>> mesh = hw.mesh("part.stl")        # doctest: +SKIP
 >>> mesh.save("part.vtu")             # doctest: +SKIP
 """
-from ._core import __version__
+from ._core import version as __version__
 from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, InvalidMesh, OutOfResources
 from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface

@@ -75,7 +75,7 @@ def to_skfem(mesh: HexMesh) -> Any:
 
 def _region_name(mesh: HexMesh, tag: int) -> str:
     names = mesh.region_names
-    return names[tag] if 0 <= tag < len(names) and names[tag] else f"region_{tag}"
+    return names[tag] if 0 <= tag < len(names) and names[tag] else f"REGION_{tag}"
 
 
 def _as_keys(rows: NDArray[Any]) -> NDArray[np.bytes_]:

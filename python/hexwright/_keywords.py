@@ -20,6 +20,10 @@ class MeshOptions(TypedDict, total=False):
     """Stop refining, at a whole level, before the grid has more cells. Default: 2000000."""
     placement: Literal["as-given", "faces"]
     """The lattice along the part's faces, however they are turned (inside only), or along the given axes. Default: faces."""
+    parts: Literal["as-is", "separate", "unite"]
+    """Solids that overlap or touch: united; those that only touch kept apart; or all surfaces left as they are. Default: unite."""
+    min_part: float | str
+    """Parts no longer than this share of the diagonal are left out, with a warning, and voids filled. Default: the tolerance."""
     transition_cost: float
     """What a cell beside another level counts more than one that is not, when levels are evened out; 0 = never even out. Default: 5."""
     rounds: int

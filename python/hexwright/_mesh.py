@@ -3,7 +3,11 @@ from __future__ import annotations
 
 import html
 import os
+import pathlib
 import re
+import tempfile
+import warnings
+import webbrowser
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._errors import BadInput
-from ._inputs import PathLike, to_array
+from ._errors import BadInput, HexwrightWarning
+from ._inputs import PathLike, as_surface, to_array
 
 if TYPE_CHECKING:
     from ._grid import Grid
@@ -93,10 +97,9 @@ class HexMesh:
     @cached_property
     def patches(self) -> dict[str, Facets]:
         """The boundary by patches of the surface: smooth parts between its sharp edges, by name."""
-        quads, owner, side, start = self._core.facets()
-        names = _fill_names(self._core.patch_names, len(start) - 1, "patch")
+        quads, owner, side, start, names = self._core.facets()
         found = {}
-        for name, first, last in zip(names, start, start[1:]):
+        for name, first, last in zip(_tell_apart(names), start, start[1:]):
             if last > first:
                 found[name] = Facets(quads[first:last], owner[first:last], side[first:last])
         return found
@@ -123,9 +126,8 @@ class HexMesh:
     @cached_property
     def curves(self) -> dict[str, NDArray[np.int32]]:
         """Mesh edges along the surface's sharp edges, shape (n, 2) for each, by name."""
-        edges, start = self._core.curves()
-        names = _fill_names(self._core.curve_names, len(start) - 1, "curve")
-        return {name: edges[a:b] for name, a, b in zip(names, start, start[1:]) if b > a}
+        edges, start, names = self._core.curves()
+        return {name: edges[a:b] for name, a, b in zip(_tell_apart(names), start, start[1:]) if b > a}
 
     def quality(self, measure: str = "scaled_jacobian") -> NDArray[np.float64]:
         """One value per hex.
@@ -149,19 +151,54 @@ class HexMesh:
             self.report, self.failures = verdict.report, verdict.failures
         return not self.failures
 
-    def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None) -> None:
-        """Writes the mesh by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus).
+    def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None, format: str = "") -> None:
+        """Writes the mesh by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus), polyMesh (OpenFOAM), ...
 
-        The same bytes as the command line writes. The file appears whole or not at all.
+        The same bytes as the command line writes. The file appears whole or not at all. Names of patches that a format
+        cannot take are changed, with a ``HexwrightWarning`` that says to what.
 
         Parameters
         ----------
         path : path-like
         fields : mapping of str to array_like of shape (k,), optional
             Values per hex to write beside the scaled Jacobian, in the formats that have them.
+        format : str, optional
+            The format where the extension does not tell, as ``--format`` of the command line.
         """
         pairs = [(name, to_array(values, name)) for name, values in (fields or {}).items()]
-        self._core.save(os.fspath(path), pairs)
+        changed = self._core.save(os.fspath(path), pairs, format)
+        if changed:
+            told = ", ".join(f"'{given}' is '{written}'" for given, written in changed)
+            warnings.warn(f"{os.fspath(path)}: names that the format cannot take: {told}", HexwrightWarning, stacklevel=2)
+
+    def view(self, path: PathLike | None = None, surface: Any = None, open: bool = True) -> str:
+        """Writes a page to look into the mesh with, and opens it in a browser: cut, peel, filter by quality, names.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The page (.html), which needs no network; a temporary file when left out.
+        surface : as for ``mesh``, optional
+            Drawn over the mesh.
+        open : bool
+            Whether to open it.
+
+        Returns
+        -------
+        str
+            The page's path.
+        """
+        against = None if surface is None else as_surface(surface)._core
+        page = _core.view_page(self._core, "mesh" if path is None else pathlib.Path(path).stem, against)
+        if path is None:
+            handle, name = tempfile.mkstemp(".html", "hexwright_")
+            os.close(handle)
+        else:
+            name = os.fspath(path)
+        pathlib.Path(name).write_text(page, encoding="utf-8")
+        if open:
+            webbrowser.open(pathlib.Path(name).resolve().as_uri())
+        return name
 
     def to_pyvista(self) -> Any:
         """A ``pyvista.UnstructuredGrid`` with cell data ``region`` and ``scaled_jacobian``. Points are copied."""
@@ -227,10 +264,9 @@ class HexMesh:
         return f"<div>{to_png_tag(self)}<table>{cells}</table></div>"
 
 
-def _fill_names(names: list[str], count: int, kind: str) -> list[str]:
-    """A name for each: its own, or its number; numbered too where files give one name twice."""
-    filled = [names[k] if k < len(names) and names[k] else f"{kind}_{k}" for k in range(count)]
-    return [f"{name}.{k}" if filled.count(name) > 1 else name for k, name in enumerate(filled)]
+def _tell_apart(names: list[str]) -> list[str]:
+    """With their numbers where a file gives one name twice."""
+    return [f"{name}.{k}" if names.count(name) > 1 else name for k, name in enumerate(names)]
 
 
 def read(path: PathLike) -> HexMesh:

@@ -17,11 +17,11 @@ class SurfaceAccessor:
         self._surface = surface
 
     def mesh(self, **options: Any) -> HexMesh:
-        """As :func:`hexwright.mesh` of this surface."""
+        """As ``hexwright.mesh`` of this surface."""
         return _stages.mesh(self._surface, **options)
 
     def grid(self, **options: Any) -> Any:
-        """As :func:`hexwright.grid` of this surface."""
+        """As ``hexwright.grid`` of this surface."""
         return _stages.grid(self._surface, **options)
 
 
@@ -33,9 +33,9 @@ class MeshAccessor:
         self._mesh = mesh
 
     def check(self, surface: Any = None, **options: Any) -> Any:
-        """As :func:`hexwright.check` of this mesh's hexes."""
+        """As ``hexwright.check`` of this mesh's hexes."""
         return _stages.check(self._mesh, surface, **options)
 
     def improve(self, surface: Any = None, **options: Any) -> HexMesh:
-        """As :func:`hexwright.improve` of this mesh's hexes."""
+        """As ``hexwright.improve`` of this mesh's hexes."""
         return _stages.improve(self._mesh, surface, **options)

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class Verdict:
-    """What :func:`check` found.
+    """What ``check`` found.
 
     Attributes
     ----------
@@ -96,13 +96,13 @@ def mesh(
     features : array_like of shape (e, 2), optional
         Pairs of the surface's vertices: edges to follow whatever their angle.
     strict : bool
-        Raise :class:`InvalidMesh` for a mesh that misses the gate, instead of a warning.
+        Raise ``InvalidMesh`` for a mesh that misses the gate, instead of a warning.
     threads : int, optional
         One per core when left out. The result does not depend on it.
     progress : callable, optional
-        Called as ``progress(stage, fraction)``; returning False stops the work with :class:`Cancelled`.
+        Called as ``progress(stage, fraction)``; returning False stops the work with ``Cancelled``.
     **options
-        Those of ``hexwright mesh``, with underscores for hyphens: see :func:`hexwright.options` and the command line's
+        Those of ``hexwright mesh``, with underscores for hyphens: see ``hexwright.options`` and the command line's
         page. The most used: ``tolerance``, the distance goal as a share of the bounding box's diagonal (0.005 or
         ``"0.5%"``); ``max_level``; ``side``; ``feature_angle`` in degrees.
 
@@ -149,7 +149,7 @@ def grid(
 ) -> Grid:
     """The adaptive grid of a surface, before completion.
 
-    Parameters are those of :func:`mesh`; options those of ``hexwright grid``.
+    Parameters are those of ``mesh``; options those of ``hexwright grid``.
 
     Returns
     -------
@@ -201,7 +201,7 @@ def dual(
     Parameters
     ----------
     grid : Grid or path
-        Balanced, and for ``mode="blocks"`` paired: see :func:`complete`.
+        Balanced, and for ``mode="blocks"`` paired: see ``complete``.
     **options
         Those of ``hexwright dual``: ``mode`` and ``no_optimize``.
     """
@@ -228,7 +228,7 @@ def fit(
     ----------
     mesh : HexMesh, path, or (points, hexes)
         Conforming, with a positive Jacobian at every corner of every hex.
-    surface : as for :func:`mesh`
+    surface : as for ``mesh``
     **options
         Those of ``hexwright fit``.
 
@@ -262,7 +262,7 @@ def check(
     Parameters
     ----------
     mesh : HexMesh, path, or (points, hexes)
-    surface : as for :func:`mesh`, optional
+    surface : as for ``mesh``, optional
     **options
         Those of ``hexwright check`` for meshes: ``feature_angle``.
     """
@@ -288,7 +288,7 @@ def improve(
     ----------
     mesh : HexMesh, path, or (points, hexes)
         Left as it is.
-    surface : as for :func:`mesh`, optional
+    surface : as for ``mesh``, optional
         Boundary vertices slide on it; without one they stay.
     **options
         Those of ``hexwright improve``: ``rounds`` and ``goal``.
@@ -365,7 +365,7 @@ def evaluate(
 ) -> dict[str, Any]:
     """The paper's evaluation of one surface: the same grid through every completion, and the whole pipeline beside it.
 
-    Parameters are those of :func:`mesh`; options those of ``hexwright bench``.
+    Parameters are those of ``mesh``; options those of ``hexwright bench``.
 
     Returns
     -------

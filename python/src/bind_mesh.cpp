@@ -10,8 +10,10 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_table.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/render/picture.h"
+#include "hexwright/render/view_page.h"
 
 #include "arrays.h"
 #include "binders.h"
@@ -98,14 +100,40 @@ nb::object quality_of(const HexMesh& mesh, const std::string& name) {
 
 using Field = std::pair<std::string, AnyArray>;
 
-void save(const HexMesh& mesh, const std::string& path, const std::vector<Field>& fields) {
+/// Names of sets that the format could not take, each with what was written instead.
+std::vector<std::pair<std::string, std::string>> save(const HexMesh& mesh, const std::string& path,
+                                                      const std::vector<Field>& fields,
+                                                      const std::string& format) {
   WriteHexOptions options;
+  options.format = format;
   options.fields.push_back({"scaled_jacobian", {}});
   for (const auto& [name, values] : fields)
     options.fields.push_back({name, to_numbers(values, mesh.num_hexes(), name)});
   const nb::gil_scoped_release released;
   options.fields[0].values = compute_scaled_jacobians(mesh).raw();
-  write_hex_mesh(path, mesh, options);
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const ChangedName& name : write_hex_mesh(path, mesh, options).changed_names)
+    changed.emplace_back(name.given, name.written);
+  return changed;
+}
+
+/// The names that files have too: those of the mesh, or by number.
+template <class Names>
+std::vector<std::string> fill_names(const Names& names, SetKind kind, std::size_t count) {
+  std::vector<std::string> filled(count);
+  for (std::size_t k = 0; k < count; ++k)
+    filled[k] = k < names.size() && !names.raw()[k].empty()
+                    ? names.raw()[k]
+                    : default_set_name(kind, static_cast<std::int32_t>(k));
+  return filled;
+}
+
+std::string view_page(const HexMesh& mesh, const std::string& title, const TriMesh* surface) {
+  ViewOptions options;
+  options.title = title;
+  std::optional<SurfaceTree> tree;
+  if (surface) options.surface = &tree.emplace(*surface);
+  return make_view_page(mesh, options);
 }
 
 nb::tuple facets_of(nb::handle self) {
@@ -117,18 +145,22 @@ nb::tuple facets_of(nb::handle self) {
   }
   auto* held = new FacetTable(std::move(table));
   const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<FacetTable*>(p); });
-  return nb::make_tuple(view_rows(reinterpret_cast<const std::int32_t*>(held->quads.data()),
-                                  held->quads.size(), 4, owner),
-                        view_values(held->owner.data(), held->owner.size(), owner),
-                        view_values(held->side.data(), held->side.size(), owner), held->start);
+  return nb::make_tuple(
+      view_rows(reinterpret_cast<const std::int32_t*>(held->quads.data()), held->quads.size(), 4,
+                owner),
+      view_values(held->owner.data(), held->owner.size(), owner),
+      view_values(held->side.data(), held->side.size(), owner), held->start,
+      fill_names(mesh_of(self).labels.patch_names, SetKind::Patch, held->start.size() - 1));
 }
 
 nb::tuple curves_of(nb::handle self) {
   auto* held = new CurveTable(sort_curves(mesh_of(self)));
   const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<CurveTable*>(p); });
-  return nb::make_tuple(view_rows(reinterpret_cast<const std::int32_t*>(held->edges.data()),
-                                  held->edges.size(), 2, owner),
-                        held->start);
+  return nb::make_tuple(
+      view_rows(reinterpret_cast<const std::int32_t*>(held->edges.data()), held->edges.size(), 2,
+                owner),
+      held->start,
+      fill_names(mesh_of(self).labels.curve_names, SetKind::Curve, held->start.size() - 1));
 }
 
 /// The same views as `hexwright picture`.
@@ -177,14 +209,17 @@ void bind_mesh(nb::module_& module) {
       },
       "points"_a, "hexes"_a, "regions"_a.none() = nb::none());
   add_views(type);
-  type.def_prop_ro("patch_names", [](const HexMesh& mesh) { return mesh.labels.patch_names.raw(); })
-      .def_prop_ro("curve_names", [](const HexMesh& mesh) { return mesh.labels.curve_names.raw(); })
-      .def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
-  type.def("quality", &quality_of, "name"_a)
-      .def("save", &save, "path"_a, "fields"_a)
+  type.def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
+  type.def("quality", &quality_of, "name"_a,
+           nb::sig("def quality(self, name: str) -> numpy.typing.NDArray[numpy.float64]"))
+      .def("save", &save, "path"_a, "fields"_a, "format"_a)
       .def("facets", &facets_of)
       .def("curves", &curves_of);
-  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a);
+  module.def("view_page", &view_page, "mesh"_a, "title"_a, "surface"_a.none(),
+             nb::call_guard<nb::gil_scoped_release>());
+  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
+             nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "
+                     "numpy.typing.NDArray[numpy.uint8]"));
   module.def(
       "read_mesh", [](const std::string& path) { return read_hex_mesh(path); }, "path"_a,
       nb::call_guard<nb::gil_scoped_release>());

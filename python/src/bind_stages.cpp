@@ -42,19 +42,15 @@ void add_features(const TriMesh& surface, const std::optional<AnyArray>& edges,
         {surface.positions[VertId(verts[i])], surface.positions[VertId(verts[i + 1])]});
 }
 
-SurfaceTree prepare_tree(const TriMesh& surface, const Context& context) {
-  return SurfaceTree(prepare_surface(surface, context).mesh);
-}
-
 nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
   MeshOptions options;
   apply_options(make_option_table(options), call.options);
-  add_features(surface, features, options.fit.features);
+  add_features(surface, features, options.target.features);
   MeshResult result;
   std::string report;
   run_stage(call.run, [&](const Context& context) {
     result = mesh_surface(surface, options, context);
-    report = report_to_json(result, options, {"", "", num_threads()});
+    report = report_to_json(result, options, {"", "", num_threads(), {}});
   });
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report);
 }
@@ -62,7 +58,7 @@ nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, 
 nb::tuple grid(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
   MeshOptions options;
   apply_options(make_grid_option_table(options), call.options);
-  add_features(surface, features, options.fit.features);
+  add_features(surface, features, options.target.features);
   SizingResult result;
   Warnings warnings = run_stage(
       call.run, [&](const Context& context) { result = size_surface(surface, options, context); });
@@ -93,21 +89,23 @@ nb::tuple dual(const Grid& grid, const Call& call) {
 /// The result is judged as check() would judge it.
 nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
                    const std::optional<AnyArray>& features, const Call& call) {
-  FitOptions options;
+  FitStageOptions options;
   apply_options(make_option_table(options), call.options);
-  add_features(surface, features, options.features);
+  add_features(surface, features, options.target.features);
   FitResult result;
   Verdict verdict;
   Warnings warnings = run_stage(call.run, [&](const Context& context) {
-    const SurfaceTree tree = prepare_tree(surface, context);
-    result = fit(background, tree, options, context);
+    const Target target = make_target(surface, options.target, context);
+    result = fit(to_unit(background, target.frame), target, options.fit, context);
     if (result.mesh.num_hexes() == 0)
       throw Error(ErrorCode::BadGeometry,
                   "no hex lies inside the surface; the mesh and the surface must overlap and the "
                   "hexes be smaller than the object");
     JudgeOptions judged;
-    judged.features = features_for_sizing(options.features, tree.box().diagonal());
-    verdict = judge(result.mesh, tree, judged, context);
+    if (options.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
+    verdict = judge(result.mesh, target, judged, context);
+    result.to_world(target.frame);
+    verdict.to_world(target.frame);
   });
   const std::string report = fit_to_json(result.report);
   return nb::make_tuple(std::move(result.mesh), report, verdict_to_json(verdict), warnings);
@@ -115,18 +113,12 @@ nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
 
 nb::tuple check(const HexMesh& mesh, const TriMesh* surface,
                 const std::optional<AnyArray>& features, const Call& call) {
-  JudgeOptions options;
-  apply_options(make_option_table(options.features), call.options);
-  if (surface) add_features(*surface, features, options.features);
+  TargetOptions target;
+  apply_options(make_option_table(target.features), call.options);
+  if (surface) add_features(*surface, features, target.features);
   Verdict verdict;
   Warnings warnings = run_stage(call.run, [&](const Context& context) {
-    if (!surface) {
-      verdict = judge(mesh, options, context);
-      return;
-    }
-    const SurfaceTree tree = prepare_tree(*surface, context);
-    options.features = features_for_sizing(options.features, tree.box().diagonal());
-    verdict = judge(mesh, tree, options, context);
+    verdict = surface ? judge(mesh, *surface, target, {}, context) : judge(mesh, {}, context);
   });
   return nb::make_tuple(verdict_to_json(verdict), verdict_to_text(verdict), warnings);
 }
@@ -170,7 +162,7 @@ nb::tuple polycube(const TetMesh& object, const TetMesh& cube, const SizeField& 
   Verdict verdict;
   Warnings warnings = run_stage(call.run, [&](const Context& context) {
     result = mesh_polycube(object, cube, options, context);
-    verdict = judge_polycube(result, context);
+    verdict = result.verdict;
   });
   for (const std::string& w : result.report.warnings) warnings.push_back(w);
   const std::string report = polycube_to_json(result.report);

@@ -10,7 +10,7 @@
 NB_MODULE(_core, module) {
   namespace python = hexwright::python;
   module.doc() = "The compiled part of hexwright; use the package's own names instead.";
-  module.attr("__version__") = HEXWRIGHT_VERSION;
+  module.attr("version") = HEXWRIGHT_VERSION;
   python::register_errors();
   python::bind_surface(module);
   python::bind_mesh(module);

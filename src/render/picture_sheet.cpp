@@ -1,7 +1,6 @@
 #include "hexwright/render/picture_sheet.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,27 +84,6 @@ void check_options(const HexMesh& mesh, const SheetOptions& options) {
 }
 
 }  // namespace
-
-PictureOptions make_cut_view(int axis, double offset) {
-  PictureOptions options;
-  // The eye stands on the cut-away side (negative along the axis) and a little beside and above.
-  Vec3 direction{-0.5, -0.35, -0.45};
-  direction[axis] = 1;
-  options.view_direction = direction;
-  PictureOptions::Cut cut;
-  cut.normal = {0, 0, 0};
-  cut.normal[axis] = -1;
-  cut.offset = offset;
-  options.cut = cut;
-  return options;
-}
-
-PictureOptions make_default_view(const HexMesh& mesh) {
-  const Vec3 extent = bounding_box(mesh).extent();
-  std::array<int, 3> axes = {0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return extent[a] < extent[b]; });
-  return make_cut_view(axes[1], 0.5);
-}
 
 Image render_sheet(const HexMesh& mesh, const SheetOptions& options) {
   check_options(mesh, options);

@@ -3,7 +3,8 @@
 #   wheel      builds it (scripts/wheel), and installs it for the steps below
 #   clean      works in an environment with numpy alone, which sees neither the build tree nor the system's libraries
 #   source     the source package builds
-#   tests      behaviour, misuse, types, documentation strings
+#   tests      behaviour, misuse, types, examples, documentation strings
+#   site       the documentation site: its notebooks and the guide's code run, no link leads nowhere
 # Exit code 77: what the step needs could not be had.
 source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/common.sh"
 PROGRAM="$1" STEP="$2"
@@ -39,7 +40,7 @@ step_source() {
   command -v ccache >/dev/null && export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   export CCACHE_BASEDIR="$folder" PATH="$PYTHON_ENVS/build/bin:$PATH" CMAKE_BUILD_PARALLEL_LEVEL="$JOBS"
   (cd "$folder" && "$PYTHON_ENVS/build/bin/python" -m pip wheel . --no-deps --no-build-isolation -w "$folder/wheels" \
-    -C cmake.define.HEXWRIGHT_WERROR=ON -C cmake.define.CMAKE_CXX_COMPILER=c++ -v >"$folder/log" 2>&1) || {
+    -C cmake.define.HEXWRIGHT_WERROR=ON -C cmake.define.CMAKE_CXX_COMPILER=c++ -C "cmake.define.CMAKE_PREFIX_PATH=$DEPS/manifold" -v >"$folder/log" 2>&1) || {
     tail -30 "$folder/log"
     return 1
   }
@@ -51,6 +52,11 @@ step_tests() {
   [ -x "$TEST_PYTHON" ] || exit 77
   cd "$ROOT/tests/python"
   HEXWRIGHT_PROGRAM="$PROGRAM" "$TEST_PYTHON" -m pytest -q -p no:cacheprovider .
+}
+
+step_site() {
+  [ -x "$TEST_PYTHON" ] || exit 77
+  "$ROOT/scripts/docs"
 }
 
 "step_$STEP"

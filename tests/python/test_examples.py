@@ -21,7 +21,7 @@ def run(name, *arguments, expect=0, **keywords):
 
 def test_quick_start(tmp_path):
     done = run("quick_start.py", SOURCE / "data/models/cube_minus_sphere.obj", tmp_path / "a.inp")
-    assert "patch_0" in done.stdout and (tmp_path / "a.inp").stat().st_size > 0
+    assert "PATCH_0" in done.stdout and (tmp_path / "a.inp").stat().st_size > 0
 
 
 def test_own_grid(tmp_path):

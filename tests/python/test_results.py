@@ -17,7 +17,7 @@ def test_arrays_are_read_only_views_that_outlive_their_mesh(cube):
             view[0] = 0
     assert mesh.points.__array_interface__["data"] == mesh.points.__array_interface__["data"], "a copy was made"
     points, expected = mesh.points, mesh.points.copy()
-    quads = mesh.patches["patch_0"].quads
+    quads = mesh.patches["PATCH_0"].quads
     total = quads.sum()
     del mesh
     gc.collect()
@@ -245,3 +245,20 @@ def test_surfaces_keep_names(cube, tmp_path):
 def test_wrong_patches_are_refused(cube, patches, words):
     with pytest.raises(hw.BadInput, match=words):
         hw.mesh(*cube, patches=patches)
+
+
+def test_the_page_to_look_into_a_mesh_is_that_of_the_command_line(cube_mesh, tmp_path, program):
+    import subprocess
+
+    cube_mesh.save(tmp_path / "cube.vtu")
+    subprocess.run([program, "view", tmp_path / "cube.vtu", "-o", tmp_path / "a.html", "--no-open", "-q"], check=True)
+    assert cube_mesh.view(tmp_path / "cube.vtu.html", open=False) == str(tmp_path / "cube.vtu.html")
+    assert (tmp_path / "cube.vtu.html").read_bytes() == (tmp_path / "a.html").read_bytes()
+
+
+def test_names_that_a_format_cannot_take_are_told(cube, tmp_path):
+    mesh = hw.mesh(*cube, patches={"a b/c": [0, 1], "inlet": [2, 3]}, **COARSE)
+    assert {"a b/c", "inlet"} <= set(mesh.patches)
+    with pytest.warns(hw.HexwrightWarning, match="'a b/c' is 'a_b_c'"):
+        mesh.save(tmp_path / "a.vtu")
+    assert {"a_b_c", "inlet"} <= set(hw.read(tmp_path / "a.vtu").patches)

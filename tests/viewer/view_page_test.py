@@ -321,6 +321,10 @@ class Step(PageTest):
         viewer.page.locator("#patches li:nth-child(3) input").focus()
         viewer.press("Space")
         self.assertFalse(viewer.page.locator("#patches li:nth-child(3) input").is_checked())
+        for key, id in (("h", "faces"), ("e", "edges"), ("i", "irregular")):
+            before = viewer.page.locator(f"#{id}").is_checked()
+            viewer.press(key)
+            self.assertEqual(viewer.page.locator(f"#{id}").is_checked(), not before, id)
         viewer.press("?")
         self.assertTrue(viewer.page.locator("#keys").is_visible())
         viewer.press("Escape")

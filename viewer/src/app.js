@@ -48,7 +48,7 @@ export class App {
     this.work();
   }
 
-  /// Asks for work before the next frame: 'hexes' = what is kept, 'faces' = their patches, 'colors', 'lines', 'frame' = draw.
+  /// Asks for work before the next frame: 'hexes' = what is kept, 'faces' = their patches, 'colors', 'lines', 'panel', 'frame' = draw.
   refresh(...what) {
     if (this.pending.size === 0) requestAnimationFrame(() => this.work());
     for (const part of what) this.pending.add(part);
@@ -72,7 +72,7 @@ export class App {
     }
     drawing.render(this.orbit.camera);
     this.panel.followCamera();
-    if (todo.size > 1 || !todo.has('frame')) this.panel.follow();
+    if (todo.size > 1 || !todo.has('frame')) this.panel.follow();  // more than the camera has moved
   }
 
   coloring() { return this.colorings.find(c => c.key === this.state.color) ?? this.colorings[0]; }
@@ -102,7 +102,7 @@ export class App {
   change(part, values) {
     Object.assign(this.state, values);
     this.syncCut();
-    this.refresh(part);
+    this.refresh(part, 'panel');
   }
 
   /// The selection reads the cut alone.
@@ -165,7 +165,7 @@ export class App {
 
   reset() {
     this.state = initialState(this.mesh);
-    history.replaceState(null, '', location.pathname + location.search);
+    if (location.hash) location.hash = '';  // not by history, which a page inside a notebook has not
     this.orbit.look('iso');
     this.refresh('hexes', 'lines');
   }

@@ -124,7 +124,7 @@ export class Drawing {
     this.faces = new Instances(QUAD, QUAD_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms), 0);
     this.scene.add(this.faces.mesh);
     this.curves = this.makeLines(2.4, 4e-5, 2);
-    this.irregular = this.makeLines(2.4, 3e-5, 1);
+    this.irregular = this.makeLines(1.6, 3e-5, 1);
     this.chosen = this.makeLines(3, 0, 5, {depthTest: false});
     this.plane = this.makeLines(1.6, 0, 4);
     this.makePoints(mesh);

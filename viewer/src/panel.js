@@ -94,7 +94,7 @@ export class Panel {
   bindSwitches() {
     const {app} = this, {summary, surface} = app.mesh, redo = {pale: 'colors', irregular: 'lines'};
     for (const id of ['faces', 'edges', 'pale', 'curves', 'corners', 'irregular', 'surface'])
-      element(id).addEventListener('change', () => { app.change(redo[id] ?? 'frame', {[id]: element(id).checked}); this.follow(); });
+      element(id).addEventListener('change', () => app.change(redo[id] ?? 'frame', {[id]: element(id).checked}));
     const {curves, corners} = summary, edges = curves.reduce((sum, c) => sum + c.edges, 0);
     element('curves-label').hidden = !edges;
     element('curves-label').querySelector('span').textContent = `${count(curves.length)}`;

@@ -10,10 +10,16 @@
 namespace hexwright {
 
 /// The adaptive grid that mesh_surface() would start from, with the lattice along the given axes.
-/// Of the options, `sizing` and `fit.features` count. Errors: those of prepare_surface and
+/// Of the options, `sizing` and `target.features` count. Errors: those of prepare_surface and
 /// build_grid.
 SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
                           const Context& context);
+
+/// A fit is asked for by what is wished of the surface and of the mesh.
+struct FitStageOptions {
+  TargetOptions target;
+  FitOptions fit;
+};
 
 struct DualStageOptions {
   std::optional<DualMode> mode;  ///< absent: blocks when the grid is paired, else sheets
@@ -28,9 +34,5 @@ DualMode resolve_dual_mode(const Grid& grid, const DualStageOptions& options);
 /// and those of build_dual.
 DualResult run_dual_stage(const Grid& grid, const DualStageOptions& options,
                           const Context& context);
-
-/// Judges the mesh against the object's boundary. The features are those that the map has labelled;
-/// creases by angle do not count.
-Verdict judge_polycube(const PolycubeResult& result, const Context& context);
 
 }  // namespace hexwright

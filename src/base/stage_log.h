@@ -4,8 +4,10 @@
 #include <chrono>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/base/context.h"
+#include "hexwright/base/stage_record.h"
 
 namespace hexwright {
 
