@@ -39,8 +39,8 @@ TriMesh cube_with_divided_top() {
 }
 
 HexMesh fit_to(const TriMesh& surface, const FitOptions& options = {}) {
-  const SurfaceTree tree(surface);
-  return fit(test::grid_around(tree.box(), 0.13), tree, options, {}).mesh;
+  const Target target = wrap_target(surface);
+  return fit(test::grid_around(target.tree.box(), 0.13), target, options, {}).mesh;
 }
 
 /// Area of the quads per name.
