@@ -33,9 +33,9 @@ struct WallSample {
   double outer = 0;  ///< least width of the gap outside here
 };
 
-/// Samples the surface every `spacing` (at least once per triangle) and measures the opposite
-/// walls: the least (length x cosine) over inward rays within 36 degrees that hit a triangle facing
-/// back (n . n' < -0.8).
+/// Samples the surface every `spacing` (at least once per triangle; of more than 200,000 triangles
+/// those smaller than the spacing in turns) and measures the opposite walls: the least (length x
+/// cosine) over inward rays within 36 degrees that hit a triangle facing back (n . n' < -0.8).
 std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
                                               const Context& context);
 

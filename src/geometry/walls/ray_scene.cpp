@@ -39,14 +39,17 @@ struct RayScene::Impl {
     const ThreadLimit one_builder(1);
     device = rtcNewDevice(nullptr);
     if (!device)
-      throw Error(ErrorCode::OutOfResources, "the ray tracer cannot start on this machine");
+      throw Error(
+          ErrorCode::OutOfResources,
+          "the ray tracer cannot start; it needs some 250 MiB of address space (ulimit -v)");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     attach_triangles();
     rtcCommitScene(scene);
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
       release();
-      throw Error(ErrorCode::OutOfResources, "the ray tracer ran out of memory");
+      throw Error(ErrorCode::OutOfResources,
+                  "not enough memory for the ray tracer; simplify the surface");
     }
   }
   Impl(const Impl&) = delete;
