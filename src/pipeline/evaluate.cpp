@@ -28,9 +28,7 @@ std::string message_of(Part&& part) {
 /// Made in the unit frame, where criteria are independent of the model's units.
 SizingResult make_input_grid(const TriMesh& surface, const EvaluateOptions& options,
                              const Context& context) {
-  TargetOptions as_given = options.mesh.target;
-  as_given.placement = Placement::AsGiven;
-  as_given.prepare = {};
+  const TargetOptions as_given = {Placement::AsGiven, options.mesh.target.features, {}};
   const Target target = make_target(surface, as_given, context);
   SizingResult result = build_grid(target, options.sizing, context);
   result.to_world(target.frame);
