@@ -32,6 +32,8 @@ ROOMS = {
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.
 FORBIDDEN_IN_PUBLIC = re.compile(r"#include <(Eigen|tbb|oneapi|embree3|iostream|nlohmann|fmt|Highs|CLI)")
+# Of glibc 2.35: the one function that would keep wheels from systems of 2.34 (docs/reference/python.md).
+TOO_NEW = re.compile(r"\bhypot\(")
 ROOM_INCLUDE = re.compile(r'#include "([a-z]+)/([a-z]+)/[\w./]+"')
 INCLUDE = re.compile(r'#include [<"](?:hexwright/)?([a-z]+)/[\w./]+[>"]')
 
@@ -48,6 +50,8 @@ def violations(root: Path):
                     if match and match[1] in ALLOWED and match[1] not in allowed | {module}:
                         yield f"{where}: module {module} may not include {match[1]}"
                     yield from room_violations(path.relative_to(root), line, where)
+                    if TOO_NEW.search(line):
+                        yield f"{where}: hypot asks for glibc 2.35; take norm() or std::sqrt"
                     if folder.startswith("include") and FORBIDDEN_IN_PUBLIC.match(line):
                         yield f"{where}: a public header may not include a heavy third party"
 

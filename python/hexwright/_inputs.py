@@ -15,7 +15,7 @@ from ._errors import BadInput
 SurfaceLike = Any
 PathLike = Union[str, "os.PathLike[str]"]
 #: Faces by name.
-Patches = Mapping[str, ArrayLike]
+Patches = Mapping[str, ArrayLike]  # rules are strings, which ArrayLike has too
 
 
 def to_array(values: Any, name: str) -> NDArray[Any]:
@@ -49,9 +49,9 @@ class Surface:
     faces : array_like, shape (m, 3)
         Vertex numbers from 0, counter-clockwise seen from outside.
 
-    patches : mapping of str to array_like, optional
-        Names of parts of the surface, each with its faces: their numbers, or a truth value per face. Where two parts meet
-        is an edge that the mesh follows.
+    patches : mapping of str to array_like or str, optional
+        Names of parts of the surface, each with its faces: their numbers, a truth value per face, or a rule as the command
+        line's ``--patch`` takes, such as ``"plane:x<0.1"``. Where two parts meet is an edge that the mesh follows.
 
     Attributes
     ----------
@@ -66,7 +66,18 @@ class Surface:
             self._core = self._with_patches(patches)._core
 
     def _with_patches(self, patches: Patches) -> Surface:
-        """The same with these names; faces that have none keep the names of the file."""
+        """The same with these names; faces that have none keep the names of the file. Rules come after faces by number,
+        because they divide faces."""
+        rules = {name: rule for name, rule in patches.items() if isinstance(rule, str)}
+        given = self._with_numbered({name: ids for name, ids in patches.items() if name not in rules})
+        if not rules:
+            return given
+        core, counts = _core.name_by_rules(given._core, [f"{name}={rule}" for name, rule in rules.items()])
+        unused = [name for name, count in zip(rules, counts) if count == 0]
+        unused = [f"no part of the surface fits the rule of '{name}'" for name in unused]
+        return Surface._wrap(core, self.warnings + unused)
+
+    def _with_numbered(self, patches: Mapping[str, Any]) -> Surface:
         names = list(self._core.group_names) or [""]
         group = self._core.group.copy() if len(self._core.group) else np.zeros(len(self.faces), dtype=np.int32)
         taken = np.zeros(len(group), dtype=bool)

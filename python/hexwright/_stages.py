@@ -90,9 +90,10 @@ def mesh(
         as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once.
     faces : array_like of shape (m, 3), optional
         Vertex numbers from 0, counter-clockwise seen from outside.
-    patches : mapping of str to array_like, optional
-        Names of parts of the surface, each with its faces: their numbers, or a truth value per face. The mesh follows the
-        borders between them, and its ``patches`` have these names. Names in files (STL, OBJ, PLY) are kept.
+    patches : mapping of str to array_like or str, optional
+        Names of parts of the surface, each with its faces: their numbers, a truth value per face, or a rule as ``--patch``
+        of the command line takes, such as ``"plane:x<0.1"``. The mesh follows the borders between them, and its
+        ``patches`` have these names. Names in files (STL, OBJ, PLY) are kept.
     features : array_like of shape (e, 2), optional
         Pairs of the surface's vertices: edges to follow whatever their angle.
     strict : bool

@@ -48,7 +48,7 @@ nb::list option_table(const std::string& stage) {
   if (stage == "mesh") return describe_defaults<MeshOptions>();
   if (stage == "complete") return describe_defaults<CompleteOptions>();
   if (stage == "dual") return describe_defaults<DualStageOptions>();
-  if (stage == "fit") return describe_defaults<FitOptions>();
+  if (stage == "fit") return describe_defaults<FitStageOptions>();
   if (stage == "improve") return describe_defaults<ImproveOptions>();
   if (stage == "polycube") return describe_defaults<PolycubeOptions>();
   if (stage == "check") return describe_defaults<FeatureOptions>();

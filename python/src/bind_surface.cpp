@@ -5,7 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "hexwright/base/error.h"
-#include "hexwright/io/feature_io.h"
+#include "hexwright/geometry/patch_rules.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/io/surface_io.h"
 
@@ -62,6 +62,22 @@ nb::object points_of(nb::handle self, const IdVector<VertId, Vec3>& positions) {
                    self);
 }
 
+/// The surface with names by rules, and how many triangles each named.
+nb::tuple name_by_rules(const TriMesh& surface, const std::vector<std::string>& texts) {
+  std::vector<PatchRule> rules;
+  for (const std::string& text : texts) {
+    rules.push_back(parse_patch_rule(text));
+    for (PatchCondition& condition : rules.back().conditions)
+      if (!condition.path.empty()) condition.surface = read_surface(condition.path).mesh;
+  }
+  RuledSurface ruled;
+  {
+    const nb::gil_scoped_release released;
+    ruled = apply_patch_rules(surface, rules);
+  }
+  return nb::make_tuple(std::move(ruled.surface), ruled.num_matched);
+}
+
 /// The surface and what its reader warned of.
 nb::tuple read(const std::string& path) {
   SurfaceFile file;
@@ -114,6 +130,7 @@ void bind_surface(nb::module_& module) {
           "points",
           [](nb::handle self) { return points_of(self, nb::cast<const TetMesh&>(self).positions); },
           nb::sig("def points(self) -> numpy.typing.NDArray[numpy.float64]"));
+  module.def("name_by_rules", &name_by_rules, "surface"_a, "rules"_a);
   module.def("read_surface", &read, "path"_a);
   module.def(
       "write_surface",

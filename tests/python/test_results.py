@@ -262,3 +262,14 @@ def test_names_that_a_format_cannot_take_are_told(cube, tmp_path):
     with pytest.warns(hw.HexwrightWarning, match="'a b/c' is 'a_b_c'"):
         mesh.save(tmp_path / "a.vtu")
     assert {"a_b_c", "inlet"} <= set(hw.read(tmp_path / "a.vtu").patches)
+
+
+def test_patches_may_be_rules(cube):
+    mesh = hw.mesh(*cube, patches={"left": "plane:x<0.5", "base": [0, 1]})
+    left = mesh.points[mesh.facets("left").quads]
+    assert left[..., 0].max() == pytest.approx(0.5, abs=0.01) and "base" in mesh.patches
+    surface = hw.Surface(*cube, patches={"left": "plane:x<0.5"})
+    assert np.array_equal(surface.vertices[:8], cube[0]), "vertices keep their numbers, which features name"
+    assert "fits the rule of 'far'" in hw.mesh(*cube, patches={"far": "plane:x>9"}, **COARSE).warnings[0]
+    with pytest.raises(hw.BadInput, match="nonsense"):
+        hw.mesh(*cube, patches={"left": "nonsense:3"})

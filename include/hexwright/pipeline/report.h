@@ -14,7 +14,7 @@ namespace hexwright {
 struct RunInfo {
   std::string input, output;  ///< paths as given
   int num_threads = 0;
-  std::vector<ChangedName> changed_names;  ///< of sets, by the output's format
+  std::vector<ChangedName> changed_names = {};  ///< of sets, by the output's format
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,

@@ -141,7 +141,7 @@ class ShapeFinder {
     for (std::size_t q : set_.members)
       for (VertId vert : mesh_.labels.quads[q].verts) {
         const Vec3 p = mesh_.positions[vert] - summary_.centroid;
-        const double r = std::hypot(dot(p, u) - center[0], dot(p, v) - center[1]);
+        const double r = norm(Vec3{dot(p, u) - center[0], dot(p, v) - center[1], 0});
         lo = std::min(lo, r);
         hi = std::max(hi, r);
       }
