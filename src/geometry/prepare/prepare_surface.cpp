@@ -7,6 +7,7 @@
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 
+#include "geometry/prepare/canonical_order.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/surface_groups.h"
 #include "geometry/prepare/surface_orient.h"
@@ -149,14 +150,14 @@ void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
 }
 
 /// The result in the input's coordinates, without the vertices that nothing uses.
-TriMesh compact(const TriMesh& working, const TriMesh& input) {
+TriMesh compact(const TriMesh& working, const IdVector<VertId, Vec3>& positions) {
   TriMesh out;
-  IdVector<VertId, char> is_used(input.num_verts(), 0);
+  IdVector<VertId, char> is_used(positions.size(), 0);
   for (const auto& tri : working.tris)
     for (VertId v : tri) is_used[v] = 1;
-  IdVector<VertId, VertId> old_to_new(input.num_verts());
-  for (VertId v : input.positions.ids())
-    if (is_used[v]) old_to_new[v] = out.positions.push_back(input.positions[v]);
+  IdVector<VertId, VertId> old_to_new(positions.size());
+  for (VertId v : positions.ids())
+    if (is_used[v]) old_to_new[v] = out.positions.push_back(positions[v]);
   for (const auto& tri : working.tris)
     out.tris.push_back({old_to_new[tri[0]], old_to_new[tri[1]], old_to_new[tri[2]]});
   return out;
@@ -223,6 +224,8 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
     refuse("all triangles are without area; check the file's coordinates");
   check_not_flat(work.mesh);
   context.check_cancelled();
+  // Before anything breaks a tie by it, and again for what was turned and added since.
+  const auto old_to_new = put_in_canonical_order(work.mesh, work.source);
 
   const Orientation orientation = orient_surface(work.mesh, context);
   diagnosis.num_flipped_tris = orientation.num_repaired;
@@ -234,8 +237,9 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
 
   diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);
-  result.mesh = compact(work.mesh, input);
+  result.mesh = compact(work.mesh, renumber(input.positions, old_to_new));
   result.source_tri = std::move(work.source);
+  put_in_canonical_order(result.mesh, result.source_tri);
   carry_groups(input, result);
   return result;
 }
