@@ -1,14 +1,16 @@
 // hexwright check: judges a hex mesh, alone or against its surface, or an adaptive grid.
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_summary.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -16,12 +18,13 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
+#include "view_file.h"
 
 namespace hexwright::cli {
 namespace {
 
 struct CheckCommand {
-  std::string input, reference, report, feature_file;
+  std::string input, reference, report, view, feature_file;
   bool as_grid = false, as_json = false;
   FeatureOptions features;
   std::optional<Balance> balance;
@@ -44,30 +47,63 @@ bool is_grid(const std::string& path) {
 /// Against a surface, the mesh is judged by the features that sizing would see: the angles given,
 /// without short loose creases. Feature files refer to the surface as it was read, before it is
 /// prepared.
-Verdict judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
+struct Judgement {
+  std::optional<SurfaceTree> surface;  ///< what it was judged against
+  Verdict verdict;
+};
+Judgement judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
   const Context context = program.console.start(cmd.reference);
-  JudgeOptions options;
-  if (cmd.reference.empty()) {
-    options.features = cmd.features;
-    return judge(mesh, options, context);
-  }
+  if (cmd.reference.empty()) return {std::nullopt, judge(mesh, {}, context)};
   const TriMesh surface = load_surface(cmd.reference, program);
-  FeatureOptions features = cmd.features;
-  load_features(cmd.feature_file, surface, features);
-  PreparedSurface prepared =
-      naming_file(cmd.reference, [&] { return prepare_surface(surface, context); });
-  options.features = features_for_sizing(features, bounding_box(prepared.mesh).diagonal());
-  return judge(mesh, SurfaceTree(std::move(prepared.mesh)), options, context);
+  TargetOptions wishes;
+  wishes.features = cmd.features;
+  load_features(cmd.feature_file, surface, wishes.features);
+  return naming_file(cmd.reference, [&] {
+    const Target target = make_target(surface, wishes, context);
+    Judgement judgement{SurfaceTree(to_world(target.surface(), target.frame)),
+                        judge(to_unit(mesh, target.frame), target, {}, context)};
+    judgement.verdict.to_world(target.frame);
+    return judgement;
+  });
+}
+
+/// A mesh that is not valid is shown too: to look at it is the way to see why. An empty one has
+/// nothing to show.
+void write_page(const CheckCommand& cmd, const HexMesh& mesh, const Judgement& judgement) {
+  if (cmd.view.empty() || mesh.num_hexes() == 0) return;
+  ViewOptions options;
+  options.title = std::filesystem::path(cmd.input).filename().string();
+  options.verdict = &judgement.verdict;
+  options.surface = judgement.surface ? &*judgement.surface : nullptr;
+  write_view(cmd.view, mesh, options);
+}
+
+/// As they would be written.
+std::vector<SetSummary> summarize_named_sets(const HexMesh& mesh) {
+  SetTable table = make_set_table(mesh);
+  name_by_place(mesh, table);
+  return summarize_sets(mesh, table);
+}
+
+std::string with_sets(const std::string& verdict, const std::vector<SetSummary>& sets) {
+  auto json = nlohmann::ordered_json::parse(verdict);
+  json["sets"] = nlohmann::ordered_json::parse(sets_to_json(sets));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void check_mesh(const CheckCommand& cmd, Program& program) {
   const HexMesh mesh = read_hex_mesh(cmd.input);
-  const Verdict verdict = judge_mesh(cmd, mesh, program);
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, verdict_to_json(verdict));
+  const Judgement judgement = judge_mesh(cmd, mesh, program);
+  const Verdict& verdict = judgement.verdict;
+  write_page(cmd, mesh, judgement);
+  const std::vector<SetSummary> sets = summarize_named_sets(mesh);
+  const std::string json = with_sets(verdict_to_json(verdict), sets);
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, json);
   if (cmd.as_json) {
-    std::puts(verdict_to_json(verdict).c_str());
+    std::puts(json.c_str());
   } else {
-    program.console.print(fmt::format("{}\n{}", cmd.input, verdict_to_text(verdict)));
+    program.console.print(
+        fmt::format("{}\n{}{}", cmd.input, sets_to_text(sets), verdict_to_text(verdict)));
   }
   if (cmd.as_json || program.console.is_quiet)  // otherwise the text has said so
     for (const std::string& f : verdict.failures) program.console.fail(cmd.input + ": " + f);
@@ -103,6 +139,7 @@ void add_check_command(CLI::App& app, Program& program) {
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
   sub->add_flag("--json", cmd->as_json, "Print the verdict as JSON");
   sub->add_option("--report", cmd->report, "Write the verdict as JSON");
+  sub->add_option("--view", cmd->view, "Of a mesh: write a page to look into it with (.html)");
   add_options(*sub, make_option_table(cmd->features));
   add_feature_file_option(*sub, cmd->feature_file);
   add_grid_demands(*sub, *cmd);
@@ -114,7 +151,11 @@ void add_check_command(CLI::App& app, Program& program) {
       "  hexwright check other.mesh --json\n"
       "  hexwright check paired.cells grid.cells --balance weak --blocks");
   sub->callback([cmd, &program] {
-    check_outputs({cmd->report}, {cmd->input, cmd->reference});
+    check_outputs({cmd->report, cmd->view}, {cmd->input, cmd->reference});
+    if (!cmd->view.empty()) require_extension(cmd->view, {".html"});
+    if (!cmd->view.empty() && cmd->is_of_grid())
+      throw Error(ErrorCode::BadArgument, "--view shows meshes, not grids; leave it out",
+                  cmd->input);
     if (cmd->is_of_grid())
       check_grid(
           {cmd->input, cmd->reference, cmd->report, cmd->as_json, cmd->balance, cmd->needs_blocks},

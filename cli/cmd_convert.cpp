@@ -15,7 +15,8 @@ namespace {
 
 struct ConvertCommand {
   std::string input, output;
-  bool as_grid = false;
+  std::string format;
+  bool as_grid = false, with_sets = false;
 };
 
 const std::vector<std::string> kSurfaceExtensions = {".obj", ".off", ".stl", ".ply"};
@@ -37,9 +38,12 @@ void run(const ConvertCommand& cmd, Program& program) {
     write_grid(cmd.output, grid);
     program.console.print(fmt::format("{}: {} cells", cmd.output, grid.num_cells()));
   } else {
-    require_extension(cmd.output, hex_mesh_extensions());
+    require_mesh_format(cmd.output, cmd.format);
     const HexMesh mesh = read_hex_mesh(cmd.input);
-    write_hex_mesh(cmd.output, mesh);
+    WriteHexOptions options;
+    options.format = cmd.format;
+    options.write_sets = cmd.with_sets;
+    write_mesh(cmd.output, mesh, program.console, options);
     program.console.print(fmt::format("{}: {} hexes", cmd.output, mesh.num_hexes()));
   }
 }
@@ -52,8 +56,13 @@ void add_convert_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Hex mesh, surface or grid")->required();
   sub->add_option("output", cmd->output, "Same kind, other extension")->required();
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
+  sub->add_flag("--sets", cmd->with_sets,
+                "VTU and VTK: quads, edges and corners also as cells behind the hexes");
+  add_format_option(*sub, cmd->format);
   add_console_options(*sub, program);
-  sub->footer("Examples:\n  hexwright convert a.mesh b.inp\n  hexwright convert a.stl b.obj");
+  sub->footer(
+      "Examples:\n  hexwright convert a.mesh b.inp\n  hexwright convert a.vtu b.mesh --format "
+      "mfem\n  hexwright convert a.stl b.obj");
   sub->callback([cmd, &program] { run(*cmd, program); });
 }
 

@@ -22,13 +22,13 @@ struct DualCommand {
 
 void run(const DualCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report}, {cmd.input});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start();
   const Grid grid = read_grid(cmd.input);
   const DualMode mode = resolve_dual_mode(grid, cmd.options);
   const DualResult result =
       naming_file(cmd.input, [&] { return run_dual_stage(grid, cmd.options, context); });
-  write_mesh_with_quality(cmd.output, result.mesh);
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, dual_to_json(result.report));
   program.console.print(
       fmt::format("{}: {} hexes ({}), scaled Jacobian min {:.3f}, average {:.3f}", cmd.output,
@@ -42,7 +42,8 @@ void add_dual_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<DualCommand>();
   CLI::App* sub = app.add_subcommand("dual", "Conforming hex mesh of a completed grid");
   sub->add_option("input", cmd->input, "Completed grid: .cells, .htg, .vtu or .mesh")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   sub->add_option("--report", cmd->report, "Write counts as JSON");
   add_console_options(*sub, program);

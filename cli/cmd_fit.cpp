@@ -3,40 +3,43 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
 
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
-  FitOptions options;
+  FitStageOptions options;
+  std::vector<std::string> patches;
 };
 
 /// The result is judged as `check` would judge it, and decides the exit code.
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
-  const SurfaceTree tree = naming_file(cmd.surface, [&] {
-    PreparedSurface prepared = prepare_surface(surface, context);
-    return SurfaceTree(std::move(prepared.mesh));
+  FitStageOptions wishes = cmd.options;
+  load_features(cmd.features, surface, wishes.target.features);
+  const Target target = naming_file(cmd.surface, [&] {
+    return make_target(name_patches(TriMesh(surface), cmd.patches, program), wishes.target,
+                       context);
   });
-  FitOptions options = cmd.options;
-  load_features(cmd.features, surface, options.features);
-  const FitResult result =
-      naming_file(cmd.hexes, [&] { return fit(background, tree, options, context); });
+  const FitResult result = naming_file(cmd.hexes, [&] {
+    FitResult fitted = fit(to_unit(background, target.frame), target, wishes.fit, context);
+    fitted.to_world(target.frame);
+    return fitted;
+  });
   if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
   if (result.mesh.num_hexes() == 0) {
     program.console.fail(cmd.hexes +
@@ -45,11 +48,13 @@ void run(const FitCommand& cmd, Program& program) {
     program.exit_code = FailsGate;
     return;
   }
-  write_mesh_with_quality(cmd.output, result.mesh);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
-  JudgeOptions judge_options;
-  judge_options.features = features_for_sizing(options.features, tree.box().diagonal());
-  const Verdict verdict = judge(result.mesh, tree, judge_options, context);
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+  JudgeOptions judged;
+  if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
+  Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
+  verdict.to_world(target.frame);
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
                                     background.num_hexes()));
   program.console.print_block(figures_to_text(verdict));
@@ -65,9 +70,11 @@ void add_fit_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("fit", "Carve a hex mesh and fit it to a surface");
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
   add_console_options(*sub, program);

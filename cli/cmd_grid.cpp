@@ -5,6 +5,7 @@
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
+#include "hexwright/pipeline/plan.h"
 #include "hexwright/pipeline/report.h"
 
 #include "commands.h"
@@ -26,7 +27,7 @@ void run(const GridCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  load_features(cmd.features, surface, options.fit.features);
+  load_features(cmd.features, surface, options.target.features);
   const SizingResult result =
       naming_file(cmd.input, [&] { return size_surface(surface, options, context); });
   write_grid(cmd.output, result.grid);

@@ -21,7 +21,7 @@ struct ImproveCommand {
 
 void run(const ImproveCommand& cmd, Program& program) {
   check_outputs({cmd.output});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start();
   HexMesh mesh = read_hex_mesh(cmd.input);
   ImproveOptions options = cmd.options;
@@ -32,7 +32,7 @@ void run(const ImproveCommand& cmd, Program& program) {
   }
   const ImproveReport report =
       naming_file(cmd.input, [&] { return improve(mesh, options, context); });
-  write_mesh_with_quality(cmd.output, mesh);
+  write_mesh_with_quality(cmd.output, mesh, program.console);
   program.console.print(
       fmt::format("{}: scaled Jacobian min {:.4f} -> {:.4f}, average {:.4f} -> {:.4f}", cmd.output,
                   report.min_before, report.min_after, report.avg_before, report.avg_after));
@@ -53,7 +53,8 @@ void add_improve_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<ImproveCommand>();
   CLI::App* sub = app.add_subcommand("improve", "Better element shapes, same connectivity");
   sub->add_option("input", cmd->input, "Hex mesh: MEDIT, VTK or VTU")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   sub->add_option("--slide-on", cmd->surface,
                   "Boundary vertices slide on this surface instead of staying");
   add_options(*sub, make_option_table(cmd->options));

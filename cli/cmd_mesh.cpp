@@ -9,18 +9,20 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
+#include "view_file.h"
 
 namespace hexwright::cli {
 namespace {
 
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
-  std::string input, output, report, picture, grid, features;
+  std::string input, output, format, report, picture, view, grid, features;
+  std::vector<std::string> patches;
   MeshOptions options;
 };
 
@@ -28,6 +30,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   console.print(fmt::format("{}: {} hexes, {} vertices in {:.1f} s ({} refinement{})", cmd.output,
                             result.mesh.num_hexes(), result.mesh.num_verts(), result.seconds,
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
+  for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
@@ -36,29 +39,34 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 /// A mesh that fails the gate is written all the same, with its failures on stderr and exit code 1:
 /// to look at it is the way to see why. Only an empty one leaves no file.
 void run(const MeshCommand& cmd, Program& program) {
-  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.input, cmd.features});
+  check_outputs({cmd.output, cmd.report, cmd.picture, cmd.view, cmd.grid},
+                {cmd.input, cmd.features});
   if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
+  if (!cmd.view.empty()) require_extension(cmd.view, {".html"});
   if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
-  const TriMesh surface = load_surface(cmd.input, program);
+  const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
   // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.placement = Placement::AsGiven;
-  load_features(cmd.features, surface, options.fit.features);
+  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  load_features(cmd.features, as_read, options.target.features);
+  const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
   const MeshResult result =
       naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
   program.console.clear_progress();
 
+  RunInfo info{cmd.input, cmd.output, num_threads(), {}};
   if (result.mesh.num_hexes() > 0) {
-    write_mesh_with_quality(cmd.output, result.mesh);
+    info.changed_names =
+        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
     if (!cmd.picture.empty())
-      write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+      write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+    if (!cmd.view.empty())
+      write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
   }
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
-  if (!cmd.report.empty())
-    write_file_atomically(cmd.report,
-                          report_to_json(result, options, {cmd.input, cmd.output, num_threads()}));
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, report_to_json(result, options, info));
   if (result.mesh.num_hexes() > 0) print_summary(cmd, result, program.console);
   for (const std::string& f : result.failures) program.console.fail(cmd.input + ": " + f);
   program.exit_code = result.failures.empty() ? Valid : FailsGate;
@@ -70,11 +78,15 @@ void add_mesh_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<MeshCommand>();
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
+  add_patch_option(*sub, cmd->patches);
+  add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  sub->add_option("--view", cmd->view, "Write a page to look into the mesh with (.html)");
   sub->add_option("--save-grid", cmd->grid,
                   "Write the completed grid (.cells, .htg, .vtu); the lattice then lies "
                   "as given");

@@ -1,13 +1,13 @@
-// hexwright picture: a mesh as PNG, cut open and coloured by scaled Jacobian.
-#include <map>
+// hexwright picture: a mesh as PNG, one view or a sheet of several.
+#include <filesystem>
 #include <memory>
 
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/render/picture_sheet.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -15,14 +15,12 @@ namespace {
 struct PictureCommand {
   std::string input, output, cut = "auto";
   double cut_at = 0.5;
-  int width = 1200, height = 900;
+  bool as_sheet = false, by_patch = false;
+  int width = 0, height = 0;  ///< 0 = of the kind of picture
 };
 
 /// `none` keeps the direction of the automatic view, so that pictures with and without cut compare.
-void run(const PictureCommand& cmd, Program& program) {
-  check_outputs({cmd.output});
-  require_extension(cmd.output, {".png"});
-  const HexMesh mesh = read_hex_mesh(cmd.input);
+PictureOptions choose_view(const PictureCommand& cmd, const HexMesh& mesh) {
   PictureOptions options;
   if (cmd.cut == "none") {
     options = make_default_view(mesh);
@@ -33,9 +31,28 @@ void run(const PictureCommand& cmd, Program& program) {
   } else {
     options = make_cut_view(cmd.cut[0] - 'x', cmd.cut_at);
   }
-  options.width = cmd.width;
-  options.height = cmd.height;
-  write_picture(cmd.output, mesh, options);
+  if (cmd.by_patch) options.colors = PictureColors::Patches;
+  return options;
+}
+
+Image draw(const PictureCommand& cmd, const HexMesh& mesh) {
+  if (cmd.as_sheet) {
+    SheetOptions sheet;
+    sheet.title = std::filesystem::path(cmd.input).filename().string();
+    if (cmd.width > 0) sheet.width = cmd.width;
+    if (cmd.height > 0) sheet.height = cmd.height;
+    return render_sheet(mesh, sheet);
+  }
+  PictureOptions view = choose_view(cmd, mesh);
+  if (cmd.width > 0) view.width = cmd.width;
+  if (cmd.height > 0) view.height = cmd.height;
+  return render_hex_mesh(mesh, view);
+}
+
+void run(const PictureCommand& cmd, Program& program) {
+  check_outputs({cmd.output});
+  require_extension(cmd.output, {".png"});
+  write_png(cmd.output, draw(cmd, read_hex_mesh(cmd.input)));
   program.console.print(cmd.output);
 }
 
@@ -52,10 +69,21 @@ void add_picture_command(CLI::App& app, Program& program) {
   sub->add_option("--cut-at", cmd->cut_at, "Place of the cut between the box's ends")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  sub->add_option("--width", cmd->width, "Pixels")->check(CLI::Range(16, 16384));
-  sub->add_option("--height", cmd->height, "Pixels")->check(CLI::Range(16, 16384));
+  sub->add_flag("--by-patch", cmd->by_patch, "Colours and names of patches instead of quality");
+  sub->add_flag("--sheet", cmd->as_sheet,
+                "Several views in one picture: outside, three cuts, worst hex, patches")
+      ->excludes("--cut")
+      ->excludes("--cut-at")
+      ->excludes("--by-patch");
+  sub->add_option("--width", cmd->width, "Pixels [1200, of a sheet 1800]")
+      ->check(CLI::Range(16, 16384));
+  sub->add_option("--height", cmd->height, "Pixels [900, of a sheet 1160]")
+      ->check(CLI::Range(16, 16384));
   add_console_options(*sub, program);
-  sub->footer("Example:\n  hexwright picture part.vtu -o part.png --cut x");
+  sub->footer(
+      "Examples:\n"
+      "  hexwright picture part.vtu -o part.png --cut x\n"
+      "  hexwright picture part.vtu -o sheet.png --sheet");
   sub->callback([cmd, &program] { run(*cmd, program); });
 }
 

@@ -10,14 +10,14 @@
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/pipeline/report.h"
 #include "hexwright/polycube/polycube.h"
-#include "hexwright/quality/judge.h"
 #include "hexwright/quality/verdict_json.h"
+#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
 #include "output.h"
-#include "picture_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -29,37 +29,10 @@ struct PolycubeCommand {
   PolycubeOptions options;
 };
 
-nlohmann::ordered_json folded_to_json(const std::vector<FoldedHex>& folded) {
-  auto json = nlohmann::ordered_json::array();
-  for (const FoldedHex& f : folded)
-    json.push_back({{"hex", f.hex.value()},
-                    {"center", {f.center.x, f.center.y, f.center.z}},
-                    {"scaled_jacobian", f.scaled_jacobian},
-                    {"object_tet", f.tet.value() + 1},
-                    {"map_is_folded_there", f.is_map_folded}});
-  return json;
-}
-
-/// Keys as documented in docs/cli.md; tets count from 1, as in the files.
-std::string to_json(const PolycubeReport& r, const Verdict& verdict) {
+/// Keys as documented in docs/cli.md.
+std::string to_json(const PolycubeReport& report, const Verdict& verdict) {
   nlohmann::ordered_json json;
-  json["polycube"] = {{"tets", r.num_tets},
-                      {"nonpositive_tets_object", r.num_nonpositive_object},
-                      {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
-                      {"nonpositive_tets_after_repair", r.num_nonpositive_left},
-                      {"charts", r.num_charts},
-                      {"unaligned_facets", r.num_unaligned_facets},
-                      {"max_plane_deviation", r.max_plane_deviation},
-                      {"spacing", r.spacing},
-                      {"roots", r.num_roots},
-                      {"sampled_cells", r.num_sampled_cells},
-                      {"cells", r.num_cells},
-                      {"bridged_vertices", r.num_bridged},
-                      {"inverted_after_mapping", r.num_inverted_mapped},
-                      {"rounds", r.num_rounds},
-                      {"max_distance", r.max_distance},
-                      {"folded_hexes", folded_to_json(r.folded)},
-                      {"warnings", r.warnings}};
+  json["polycube"] = nlohmann::ordered_json::parse(polycube_to_json(report));
   json["verdict"] = nlohmann::ordered_json::parse(verdict_to_json(verdict));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -103,24 +76,21 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
   };
 }
 
-/// The reference of the judgement is the object's own boundary, whose edges between charts are
-/// labelled by the map; creases by angle are switched off by an angle that no edge reaches.
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
-  require_extension(cmd.output, hex_mesh_extensions());
+  require_mesh_format(cmd.output);
   const Context context = program.console.start();
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
   PolycubeOptions options = cmd.options;
   options.max_edge = make_size_field(cmd, object);
   const PolycubeResult result =
       naming_file(cmd.polycube, [&] { return mesh_polycube(object, polycube, options, context); });
-  JudgeOptions judge_options;
-  judge_options.features.crease_angle = 4;  // the map's own curves count, not the surface's creases
-  const Verdict verdict = judge(result.mesh, SurfaceTree(result.surface), judge_options, context);
+  const Verdict& verdict = result.verdict;
   program.console.clear_progress();
 
-  write_mesh_with_quality(cmd.output, result.mesh);
-  if (!cmd.picture.empty()) write_picture(cmd.picture, result.mesh, make_default_view(result.mesh));
+  write_mesh_with_quality(cmd.output, result.mesh, program.console);
+  if (!cmd.picture.empty())
+    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);
@@ -148,7 +118,8 @@ void add_polycube_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
   sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
   sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .mesh, .msh or .inp")->required();
+  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
+      ->required();
   add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);
   sub->add_option("--report", cmd->report, "Write a report as JSON");

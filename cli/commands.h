@@ -33,6 +33,7 @@ void add_improve_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_picture_command(CLI::App& app, Program& program);
+void add_view_command(CLI::App& app, Program& program);
 void add_bench_command(CLI::App& app, Program& program);
 void add_bench_one_command(CLI::App& app, Program& program);
 void add_polycube_command(CLI::App& app, Program& program);

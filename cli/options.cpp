@@ -11,7 +11,9 @@
 #include <fmt/ranges.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/geometry/patch_rules.h"
 #include "hexwright/io/feature_io.h"
+#include "hexwright/io/mesh_io.h"
 
 namespace hexwright::cli {
 namespace {
@@ -95,6 +97,50 @@ void require_extension(const std::string& path, const std::vector<std::string>& 
   if (!has_extension(path, extensions))
     throw CLI::ValidationError(fmt::format("cannot write '{}': the extension must be one of {}",
                                            path, fmt::join(extensions, ", ")));
+}
+
+void require_mesh_format(const std::string& path, const std::string& format) {
+  try {
+    check_hex_mesh_format(path, format);
+  } catch (const Error& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
+void add_format_option(CLI::App& cmd, std::string& format) {
+  cmd.add_option("--format", format, "Format of the mesh, where the extension does not tell")
+      ->check(CLI::IsMember(hex_mesh_formats()));
+}
+
+void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
+  cmd.add_option(
+         "--patch", rules,
+         "NAME=RULE names a part of the surface, such as inlet=plane:x<0.001; repeated, the "
+         "first that fits counts")
+      ->allow_extra_args(false)
+      ->check([](const std::string& rule) {
+        try {
+          parse_patch_rule(rule);
+          return std::string();
+        } catch (const Error& error) {
+          return std::string(error.what());
+        }
+      });
+}
+
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+  if (rules.empty()) return std::move(surface);
+  std::vector<PatchRule> parsed;
+  for (const std::string& rule : rules) {
+    parsed.push_back(parse_patch_rule(rule));
+    for (PatchCondition& condition : parsed.back().conditions)
+      if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
+  }
+  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    if (ruled.num_matched[r] == 0)
+      program.console.warn("--patch " + rules[r] + ": no part of the surface fits the rule");
+  return std::move(ruled.surface);
 }
 
 TriMesh load_surface(const std::string& path, Program& program) {

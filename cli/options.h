@@ -31,6 +31,19 @@ double read_share(const std::string& option, const std::string& text);
 /// Fails early, before hours of work, when an output's extension is not among `extensions`.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
 
+/// The same for hex meshes: the format by its name, or by the extension when the name is empty.
+void require_mesh_format(const std::string& path, const std::string& format = {});
+
+/// --format, of hex meshes.
+void add_format_option(CLI::App& cmd, std::string& format);
+
+/// --patch, rules that name parts of the surface.
+void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
+
+/// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
+/// meets.
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
+
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Extensions of grid files.

@@ -47,7 +47,8 @@ void check_outputs(std::initializer_list<std::string> outputs,
     if (path.empty()) continue;
     given.push_back(path);
     std::error_code ignored;
-    if (fs::is_directory(path, ignored))
+    const bool is_mesh_folder = fs::path(path).filename() == "polyMesh";  // of OpenFOAM
+    if (fs::is_directory(path, ignored) && !is_mesh_folder)
       throw Error(ErrorCode::CannotOpen, "is a folder; name a file in it", path);
     if (fs::is_symlink(path, ignored) && !fs::exists(path, ignored))
       throw Error(ErrorCode::CannotOpen, "is a link to a file that does not exist; remove it",
@@ -65,10 +66,22 @@ void check_outputs(std::initializer_list<std::string> outputs,
   check_distinct(given, inputs);
 }
 
-void write_mesh_with_quality(const std::string& path, const HexMesh& mesh) {
+std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
+                                                 Console& console, const std::string& format) {
   WriteHexOptions options;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
-  write_hex_mesh(path, mesh, options);
+  options.format = format;
+  options.names_by_place = true;
+  return write_mesh(path, mesh, console, options);
+}
+
+std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh, Console& console,
+                                    const WriteHexOptions& options) {
+  WriteHexResult result = write_hex_mesh(path, mesh, options);
+  for (const ChangedName& name : result.changed_names)
+    console.warn(path + ": the set '" + name.given + "' is called '" + name.written +
+                 "', because the format does not allow its name");
+  return std::move(result.changed_names);
 }
 
 }  // namespace hexwright::cli

@@ -3,8 +3,11 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
 
-#include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/io/mesh_io.h"
+
+#include "console.h"
 
 namespace hexwright::cli {
 
@@ -15,7 +18,14 @@ namespace hexwright::cli {
 void check_outputs(std::initializer_list<std::string> outputs,
                    std::initializer_list<std::string> inputs = {});
 
-/// Writes a hex mesh with the scaled Jacobian of each hex as a field.
-void write_mesh_with_quality(const std::string& path, const HexMesh& mesh);
+/// Writes a hex mesh with the scaled Jacobian of each hex as a field, in the format of that name
+/// or, when it is empty, by the extension. Warns of names that the format could not take, and
+/// returns them.
+std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
+                                                 Console& console, const std::string& format = {});
+
+/// The same without the field.
+std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh, Console& console,
+                                    const WriteHexOptions& options);
 
 }  // namespace hexwright::cli

@@ -2,6 +2,7 @@
 set -euo pipefail
 ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 DEPS="$ROOT/build/deps"          # packages from PyPI, unpacked here and nowhere else
+PYTHON_ENVS="$ROOT/build/python/env"  # virtual environments: build, test
 JOBS="${HEXWRIGHT_JOBS:-$(nproc)}"
 
 # is_installed PACKAGE, of Debian or Ubuntu
@@ -12,6 +13,8 @@ say() { printf '\n== %s\n' "$*"; }
 # The newer of the system's cmake and the one unpacked under build/deps.
 export PATH="$DEPS/bin:$PATH"
 export PYTHONPATH="$DEPS${PYTHONPATH:+:$PYTHONPATH}"
+# Builds in folders of equal depth share their objects.
+export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}" CCACHE_NOHASHDIR=1
 export PIP_ROOT_USER_ACTION=ignore PIP_DISABLE_PIP_VERSION_CHECK=1
 
 configure() {  # configure PRESET [cmake options ...]

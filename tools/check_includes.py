@@ -11,22 +11,23 @@ ALLOWED = {
     "base": set(),
     "mesh": {"base"},
     "geometry": {"base", "mesh"},
+    "target": {"base", "mesh", "geometry"},
     "labelling": {"base"},
-    "grid": {"base", "mesh", "geometry", "labelling"},
-    "quality": {"base", "mesh", "geometry"},
-    "relax": {"base", "mesh", "geometry", "quality"},
-    "dual": {"base", "mesh", "geometry", "grid", "quality", "relax"},
-    "fit": {"base", "mesh", "geometry", "quality", "relax"},
-    "polycube": {"base", "mesh", "geometry", "grid", "dual", "fit", "quality", "relax"},
+    "grid": {"base", "mesh", "geometry", "target", "labelling"},
+    "quality": {"base", "mesh", "geometry", "target"},
+    "relax": {"base", "mesh", "geometry", "target", "quality"},
+    "dual": {"base", "mesh", "geometry", "target", "grid", "quality", "relax"},
+    "fit": {"base", "mesh", "geometry", "target", "quality", "relax"},
+    "polycube": {"base", "mesh", "geometry", "target", "grid", "dual", "fit", "quality", "relax"},
     "io": {"base", "mesh", "grid"},
     "render": {"base", "mesh", "geometry", "quality", "io"},
-    "pipeline": {"base", "mesh", "geometry", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "render"},
+    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "render"},
 }
 # Rooms inside a module, lowest first: a room includes itself and those before it.
 ROOMS = {
     "geometry": ["frame", "tree", "prepare", "features", "walls"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
-    "io": ["text", "surface", "mesh", "grid"],
+    "io": ["text", "surface", "sets", "solver", "mesh", "grid"],
     "fit": ["carve", "curves", "sheets"],
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.

@@ -35,10 +35,10 @@ BENCHMARK(solve_vertices)->Arg(0)->Arg(9)->ArgName("blend_tenths")->Unit(benchma
 
 void run_fit(benchmark::State& state, const TriMesh& surface) {
   const ThreadLimit limit(static_cast<int>(state.range(0)));
-  const SurfaceTree tree(surface);
-  const HexMesh grid = test::grid_around(tree.box(), tree.box().extent().x / 40);
+  const Target target = wrap_target(surface);
+  const HexMesh grid = test::grid_around(target.tree.box(), target.tree.box().extent().x / 40);
   std::size_t num_hexes = 0;
-  for (auto _ : state) num_hexes += fit(grid, tree, {}, {}).mesh.num_hexes();
+  for (auto _ : state) num_hexes += fit(grid, target, {}, {}).mesh.num_hexes();
   state.SetItemsProcessed(static_cast<long>(num_hexes));
 }
 

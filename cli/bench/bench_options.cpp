@@ -12,7 +12,8 @@ namespace hexwright::cli {
 
 void add_bench_options(CLI::App& cmd, BenchOptions& options) {
   add_options(cmd, make_option_table(options.evaluate));
-  cmd.add_flag("--no-pictures", options.no_pictures, "Draw nothing");
+  cmd.add_flag("--no-pictures", options.no_pictures,
+               "Draw nothing, and make no pages to look into meshes with");
   cmd.add_option("--picture-width", options.picture_width, "Pixels of each picture in the report")
       ->check(CLI::Range(60, 4000))
       ->capture_default_str();

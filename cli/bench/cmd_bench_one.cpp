@@ -9,7 +9,7 @@
 #include "bench/results.h"
 #include "commands.h"
 #include "options.h"
-#include "picture_file.h"
+#include "view_file.h"
 
 namespace hexwright::cli {
 namespace {
@@ -26,7 +26,7 @@ struct BenchOneCommand {
 /// Draws what a record has and the folder has not yet.
 class Illustrator {
  public:
-  Illustrator(const BenchOneCommand& cmd) : cmd_(cmd) {}
+  Illustrator(const BenchOneCommand& cmd, const TriMesh& surface) : cmd_(cmd), surface_(surface) {}
 
   void draw(const ModelRecord& record) {
     if (cmd_.options.no_pictures) return;
@@ -38,10 +38,12 @@ class Illustrator {
       draw("mesh", record.mesh->mesh, view);
       view.cut.reset();
       draw("surface", record.mesh->mesh, view);
+      write_page(*record.mesh);
     }
   }
 
   const Json& drawn() const { return drawn_; }
+  const Json& page() const { return page_; }  ///< null before there is one
 
  private:
   /// All grids of a model are cut alike, in the middle; deeper cells are warmer.
@@ -61,11 +63,21 @@ class Illustrator {
     view.draw_legend = false;
     const fs::path file = picture_file(cmd_.out, cmd_.name, part);
     fs::create_directories(file.parent_path());
-    write_picture(file.string(), mesh, view);
+    write_png(file, render_hex_mesh(mesh, view));
     drawn_[part] = fs::relative(file, cmd_.out).generic_string();
   }
 
+  void write_page(const MeshResult& result) {
+    if (!page_.is_null()) return;
+    const fs::path file = page_file(cmd_.out, cmd_.name);
+    fs::create_directories(file.parent_path());
+    write_view(file.string(), result, surface_, cmd_.name);
+    page_ = fs::relative(file, cmd_.out).generic_string();
+  }
+
   const BenchOneCommand& cmd_;
+  const TriMesh& surface_;
+  Json page_;
   Json drawn_ = Json::object();
 };
 
@@ -75,14 +87,6 @@ void run(BenchOneCommand& cmd, Program& program) {
   EvaluateOptions& options = cmd.options.evaluate;
 
   Json head = {{"schema", 1}, {"model", cmd.name}, {"key", cmd.key}, {"status", kRunning}};
-  Illustrator illustrator(cmd);
-  const auto save = [&](const ModelRecord& record) {
-    illustrator.draw(record);
-    Json json = head;
-    json.update(Json::parse(record_to_json(record)));
-    json["pictures"] = illustrator.drawn();
-    save_record(cmd.out, cmd.name, json);
-  };
   const auto give_up = [&](const char* status, const std::string& message) {
     head["status"] = status;
     head["message"] = message;
@@ -92,6 +96,15 @@ void run(BenchOneCommand& cmd, Program& program) {
   try {
     Context context = program.console.start();
     const TriMesh surface = read_surface(cmd.model).mesh;
+    Illustrator illustrator(cmd, surface);
+    const auto save = [&](const ModelRecord& record) {
+      illustrator.draw(record);
+      Json json = head;
+      json.update(Json::parse(record_to_json(record)));
+      json["pictures"] = illustrator.drawn();
+      if (!illustrator.page().is_null()) json["page"] = illustrator.page();
+      save_record(cmd.out, cmd.name, json);
+    };
     const ModelRecord record = evaluate_model(surface, options, context, save);
     head["status"] = "done";
     save(record);

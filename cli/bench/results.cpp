@@ -102,6 +102,10 @@ fs::path picture_file(const fs::path& out, const std::string& name, const std::s
   return file += "." + part + ".png";
 }
 
+fs::path page_file(const fs::path& out, const std::string& name) {
+  return out / "pages" / (name + ".html");
+}
+
 Json load_record(const fs::path& out, const BenchModel& model) {
   Json record = Json::parse(read_if_regular(record_file(out, model.name)), nullptr, false);
   if (!record.is_object() || record.value("key", "") != model.key) return {};

@@ -2,6 +2,7 @@
 //
 //   OUT/records/NAME.json       one per model, rewritten after each part of its evaluation
 //   OUT/pictures/NAME.PART.png
+//   OUT/pages/NAME.html         the final mesh, to look into
 //   OUT/results.jsonl           one line per model
 //   OUT/report.html
 #pragma once
@@ -33,6 +34,7 @@ std::string file_hash(const std::filesystem::path& file);
 std::filesystem::path record_file(const std::filesystem::path& out, const std::string& name);
 std::filesystem::path picture_file(const std::filesystem::path& out, const std::string& name,
                                    const std::string& part);
+std::filesystem::path page_file(const std::filesystem::path& out, const std::string& name);
 
 /// A record whose evaluation goes on; anything else in "status" is final.
 inline constexpr const char* kRunning = "running";

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/assert.h"
+#include "hexwright/base/function_ref.h"
 #include "hexwright/geometry/surface_names.h"
 #include "hexwright/quality/hex_quality.h"
 
@@ -24,6 +25,7 @@
 #include "fit/sheets/squeezed.h"
 #include "relax/balance.h"
 #include "relax/finish.h"
+#include "relax/joint_lift.h"
 #include "relax/sweep.h"
 #include "relax/targets.h"
 
@@ -49,6 +51,7 @@ constexpr int kSmoothRounds = 2;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
 constexpr double kCostlyMiss = 0.1;
+constexpr double kCostlyFloor = 0.4;  // the joint lift does not start from less without need
 // Corners are single points that users look for: they are to be met within this share of the
 // surface's diagonal, a little less than what the judge allows.
 constexpr double kCornerMiss = 0.00045;
@@ -93,6 +96,17 @@ struct Attempt {
   CurveVerdicts verdicts;
 };
 
+}  // namespace
+
+/// What the last passes start from: everything has arrived, nothing has been given away yet.
+struct FitMemory {
+  Attempt attempt;
+  FeatureGraph features;
+  FitReport report;
+};
+
+namespace {
+
 void require_consistent(const FitOptions& options) {
   if (!options.do_carve && options.carve.side != Side::Inside) {
     throw Error(ErrorCode::BadArgument,
@@ -118,8 +132,9 @@ void require_same_place(const HexMesh& mesh, const SurfaceTree& surface) {
 
 class Fitter {
  public:
-  Fitter(const SurfaceTree& surface, const FitOptions& options, const Context& context)
-      : surface_(surface),
+  Fitter(const Target& target, const FitOptions& options, const Context& context)
+      : target_(target),
+        surface_(target.tree),
         options_(options),
         context_(context),
         clock_(context, report_.seconds, report_.processor_seconds) {}
@@ -133,7 +148,7 @@ class Fitter {
     clock_.run("carve", 0.02, [&] { kept = keep_hexes(background); });
     const FitState& carved = *kept;
     report_.num_hexes_carved = carved.mesh.num_hexes();
-    if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_)};
+    if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_), {}};
     Attempt scaffold{carved, {}, {}, {}, {}};  // nothing mapped yet
     clock_.run("pad", 0.2, [&] {
       if (!pad_boundary(scaffold.state))
@@ -143,27 +158,60 @@ class Fitter {
     clock_.run("approach", 0.3,
                [&] { approach(scaffold, is_selective() ? kScaffold : kFinal, false); });
     Attempt result = fit_features(carved, scaffold.state);
+    arrive(result);
+    std::shared_ptr<FitMemory> memory;
+    if (options_.lift_goal > 0)
+      memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
+    const bool is_poor = least_quality(result) < options_.lift_goal;
+    FitResult done = conclude(std::move(result));
+    if (is_poor) done.memory = std::move(memory);
+    return done;
+  }
+
+  FitResult lift(const FitMemory& memory) {
+    Attempt result = memory.attempt;
+    features_ = memory.features;
+    report_ = memory.report;
+    finish_lifted(result);
     return conclude(std::move(result));
   }
 
  private:
-  // Everything has arrived: the best place for the boundary, then quality at that place.
-  void finish(Attempt& a) {
+  // The best place for the boundary, and quality at that place.
+  void arrive(Attempt& a) {
     clock_.run("balance", 0.88, [&] { balance(a); });
     clock_.run("polish", 0.9, [&] { polish_worst(a.state, target(a), {}, context_); });
     clock_.run("snap", 0.93, [&] { snap_gently(a); });
     clock_.run("lift", 0.95, [&] { lift_worst(a.state, target(a), {}, context_); });
     clock_.run("balance", 0.96, [&] { balance(a); });
-    clock_.run("snap", 0.97, [&] { settle(a); });
-    clock_.run("smooth", 0.975, [&] { smooth(a); });
-    clock_.run("prove", 0.98,
-               [&] { report_.unproven = mend_unproven(a.state, target(a), context_); });
   }
+
+  void finish(Attempt& a) {
+    clock_.run("snap", 0.97, [&] { settle(a, options_.snap_quality); });
+    clock_.run("smooth", 0.975, [&] { smooth(a, least_quality(a)); });
+    clock_.run("prove", 0.98, [&] { prove(a); });
+  }
+
+  // The same with a boundary that may leave the surface around poor hexes.
+  void finish_lifted(Attempt& a) {
+    const double goal = options_.lift_goal;
+    clock_.run("snap", 0.97, [&] { settle(a, std::max(options_.snap_quality, kCostlyFloor)); });
+    clock_.run("lift jointly", 0.972, [&] { lift_jointly(a, false); });
+    clock_.run("snap", 0.975, [&] {
+      snap_to_targets(a.state, target(a), goal);  // takes back what is not needed
+      settle_where_beyond(a);
+    });
+    clock_.run("smooth", 0.977, [&] { smooth(a, goal); });
+    clock_.run("lift jointly", 0.98, [&] { lift_jointly(a, true); });
+    clock_.run("prove", 0.985, [&] { prove(a); });
+  }
+
+  void prove(Attempt& a) { report_.unproven = mend_unproven(a.state, target(a), context_); }
 
   FitState keep_hexes(const HexMesh& background) {
     if (!options_.do_carve) return FitState(background);
-    report_.carve = carve(background, surface_, options_.carve, context_);
+    report_.carve = carve(background, surface_, target_.expected, options_.carve, context_);
     return keep_side(background, report_.carve.is_kept, options_.carve.side);
   }
 
@@ -186,14 +234,16 @@ class Fitter {
     std::vector<double> sizes;
     for (VertId v : state.kind.ids())
       if (state.is_boundary(v)) sizes.push_back(state.size[v]);
-    FeatureOptions features = options_.features;
+    FeatureOptions features = target_.feature_options;
     if (!sizes.empty()) {
       const auto decile = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 10);
       std::nth_element(sizes.begin(), decile, sizes.end());
       const double least = 4 * *decile;
       features.min_length = features.min_length > 0 ? std::min(features.min_length, least) : least;
     }
-    features_ = extract_features(surface_, features);
+    const bool is_as_wished = features.min_length == target_.feature_options.min_length;
+    features_ =
+        is_as_wished ? target_.features : extract_features(surface_, features, target_.creases);
   }
 
   // Curves that turn out to be met badly are given up and the mapping done anew without them; the
@@ -279,11 +329,23 @@ class Fitter {
                  context_);
   }
 
+  void lift_jointly(Attempt& a, bool is_last) {
+    const double tolerance = options_.tolerance * surface_.diagonal();
+    relax::lift_jointly(a.state, target(a), {tolerance, options_.lift_goal, is_last}, context_);
+  }
+
+  double least_quality(const Attempt& a) const {
+    const auto quality = compute_scaled_jacobians(a.state.mesh);
+    return *std::min_element(quality.begin(), quality.end());
+  }
+
   // The average, as far as the least allows; the best offsets follow the sliding vertices.
-  void smooth(Attempt& a) {
+  void smooth(Attempt& a, double floor) {
+    AverageOptions average;
+    average.floor = floor;
     for (int round = 0; round < kSmoothRounds; ++round) {
       if (round > 0) balance(a);
-      raise_average(a.state, target(a), {}, context_);
+      raise_average(a.state, target(a), average, context_);
     }
   }
 
@@ -298,25 +360,38 @@ class Fitter {
     snap_to_targets(a.state, target(a), std::max(options_.snap_quality, 0.4));
   }
 
-  // ... again after the lift, at no cost to the least, and down to the least quality allowed where
-  // the distance is worth it.
-  void settle(Attempt& a) {
+  // ... again after the lift, at no cost to the least, and down to `floor` where the distance is
+  // worth it.
+  void settle(Attempt& a, double floor) {
     FitState& state = a.state;
-    const auto quality = compute_scaled_jacobians(state.mesh);
-    snap_to_targets(state, target(a), *std::min_element(quality.begin(), quality.end()));
+    snap_to_targets(state, target(a), least_quality(a));
     update_targets(state, target(a), 0);
-    std::vector<char> is_miss(state.num_verts(), 0);
+    if (snap_misses(a, floor, [&](VertId v) { return state.residual(v) > kCostlyMiss; }))
+      lift_worst(state, target(a), {}, context_);
+    meet_corners(state, kCornerMiss * surface_.diagonal(), floor);
+  }
+
+  // What is still farther than the judge allows goes there down to the least quality allowed.
+  void settle_where_beyond(Attempt& a) {
+    FitState& state = a.state;
+    update_targets(state, target(a), 0);
+    const double tolerance = options_.tolerance * surface_.diagonal();
+    snap_misses(a, options_.snap_quality,
+                [&](VertId v) { return state.residual(v) * state.size[v] > tolerance; });
+    meet_corners(state, kCornerMiss * surface_.diagonal(), options_.snap_quality);
+  }
+
+  // Whether there were any. Requires current targets.
+  bool snap_misses(Attempt& a, double floor, FunctionRef<bool(VertId)> is_miss) {
+    std::vector<char> misses(a.state.num_verts(), 0);
     bool any = false;
-    for (VertId v : state.kind.ids()) {
-      if (state.stars[v].empty() || !(state.residual(v) > kCostlyMiss)) continue;
-      is_miss[v.index()] = 1;
+    for (VertId v : a.state.kind.ids()) {
+      if (a.state.stars[v].empty() || !is_miss(v)) continue;
+      misses[v.index()] = 1;
       any = true;
     }
-    if (any) {
-      snap_to_targets(state, target(a), options_.snap_quality, is_miss);
-      lift_worst(state, target(a), {}, context_);
-    }
-    meet_corners(state, kCornerMiss * surface_.diagonal(), options_.snap_quality);
+    if (any) snap_to_targets(a.state, target(a), floor, misses);
+    return any;
   }
 
   FitResult conclude(Attempt result) {
@@ -333,7 +408,7 @@ class Fitter {
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);
     remove_unused_verts(state.mesh);
-    return {std::move(state.mesh), std::move(report_)};
+    return {std::move(state.mesh), std::move(report_), {}};
   }
 
   // The name that the whole surface has is that of the solid.
@@ -344,7 +419,8 @@ class Fitter {
     if (state.side == Side::Both) state.mesh.region_names = {"", name};
   }
 
-  const SurfaceTree& surface_;
+  const Target& target_;
+  const SurfaceTree& surface_;  // of the target
   const FitOptions& options_;
   const Context& context_;
   FeatureGraph features_;
@@ -354,11 +430,32 @@ class Fitter {
 
 }  // namespace
 
-FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
-              const Context& context) {
+FitResult fit_unlifted(const HexMesh& background, const Target& target, const FitOptions& options,
+                       const Context& context) {
   const auto watch = context.watch();
   require_consistent(options);
-  return Fitter(surface, options, context).run(background);
+  return Fitter(target, options, context).run(background);
+}
+
+FitResult lift_fit(const FitMemory& memory, const Target& target, const FitOptions& options,
+                   const Context& context) {
+  const auto watch = context.watch();
+  return Fitter(target, options, context).lift(memory);
+}
+
+FitResult fit(const HexMesh& background, const Target& target, const FitOptions& options,
+              const Context& context) {
+  FitResult result = fit_unlifted(background, target, options, context);
+  return result.memory ? lift_fit(*result.memory, target, options, context) : result;
+}
+
+FitResult fit(const HexMesh& background, const TriMesh& surface,
+              const TargetOptions& target_options, const FitOptions& options,
+              const Context& context) {
+  const Target target = make_target(surface, target_options, context);
+  FitResult result = fit(to_unit(background, target.frame), target, options, context);
+  result.to_world(target.frame);
+  return result;
 }
 
 }  // namespace hexwright

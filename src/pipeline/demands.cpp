@@ -60,7 +60,7 @@ std::string say_beyond_tolerance(const RoundInput& input, const Round& round) {
 
 /// Tips of wedges are lost on any grid; with the right topology only their distance counts.
 std::vector<Vec3> places_lost(const RoundInput& input, const Round& round) {
-  if (input.expected.is_known && has_expected_topology(input, round)) return {};
+  if (input.target.expected.is_known && has_expected_topology(input, round)) return {};
   return round.fit.report.carve.lost;
 }
 
@@ -68,13 +68,13 @@ std::vector<Vec3> places_lost(const RoundInput& input, const Round& round) {
 /// certainly wrong fails.
 std::string say_components(const RoundInput& input, const Round& round) {
   const std::size_t num_components = round.verdict.topology.num_boundary_components;
-  if (!input.expected.is_known || !is_inside(input) ||
-      num_components == input.expected.num_components)
+  if (!input.target.expected.is_known || !is_inside(input) ||
+      num_components == input.target.expected.num_components)
     return {};
   return fmt::format(
       "the mesh's boundary has {} components, the surface {}: parts or gaps thinner than the "
       "grid's cells were lost; use deeper levels",
-      num_components, input.expected.num_components);
+      num_components, input.target.expected.num_components);
 }
 
 bool has_least_quality(const RoundInput& input, const Round& round) {
@@ -168,16 +168,16 @@ constexpr double kMaxFeatureFactor = 5.001;
 std::span<const Demand> demands() { return kDemands; }
 
 bool has_expected_topology(const RoundInput& input, const Round& round) {
-  if (!input.expected.is_known || !is_inside(input)) return true;
+  if (!input.target.expected.is_known || !is_inside(input)) return true;
   const TopologyReport& t = round.verdict.topology;
-  return t.num_boundary_components == input.expected.num_components &&
-         t.boundary_euler_characteristic == input.expected.euler_characteristic;
+  return t.num_boundary_components == input.target.expected.num_components &&
+         t.boundary_euler_characteristic == input.target.expected.euler_characteristic;
 }
 
 bool misses_features(const RoundInput& input, const Round& round) {
   const MeshOptions& options = input.options;
   return round.verdict.features && feature_share(round) < options.min_feature_share &&
-         options.sizing.tolerance <= kMaxFeatureFactor * options.judge.edge_tolerance;
+         options.sizing.tolerance <= kMaxFeatureFactor * options.edge_tolerance;
 }
 
 double max_distance(const Round& round) {

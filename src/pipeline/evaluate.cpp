@@ -4,10 +4,9 @@
 #include <new>
 
 #include "hexwright/base/error.h"
-#include "hexwright/geometry/similarity.h"
 
+#include "base/stage_log.h"
 #include "io/grid/grid_file.h"
-#include "pipeline/stage_log.h"
 
 namespace hexwright {
 namespace {
@@ -26,18 +25,13 @@ std::string message_of(Part&& part) {
   }
 }
 
-/// The input grid in the unit frame, where criteria are independent of the model's units.
+/// Made in the unit frame, where criteria are independent of the model's units.
 SizingResult make_input_grid(const TriMesh& surface, const EvaluateOptions& options,
                              const Context& context) {
-  PreparedSurface prepared = prepare_surface(surface, context);
-  const Similarity frame = compute_unit_frame(prepared.mesh);
-  prepared.mesh = to_unit(prepared.mesh, frame);
-  const double diagonal = bounding_box(prepared.mesh).diagonal();
-  const FeatureGraph features =
-      extract_features(prepared.mesh, features_for_sizing(options.mesh.fit.features, diagonal));
-  SizingResult result = build_grid(prepared.mesh, features, options.sizing, context);
-  GridFrame& placed = result.grid.frame;
-  placed = {frame.to_world(placed.origin), frame.length_to_world(placed.root_size)};
+  const TargetOptions as_given = {Placement::AsGiven, options.mesh.target.features, {}};
+  const Target target = make_target(surface, as_given, context);
+  SizingResult result = build_grid(target, options.sizing, context);
+  result.to_world(target.frame);
   return result;
 }
 
@@ -52,7 +46,7 @@ void run_method(const Grid& input, const Method& method, const EvaluateOptions& 
   record.grid = std::move(completed.grid);
   record.cells_per_level = count_cells_per_level(record.grid);
   if (!options.run_dual) return;
-  DualOptions dual = options.mesh.dual;
+  DualOptions dual;
   dual.mode = method.complete.pairing == Pairing::Sheets ? DualMode::Sheets : DualMode::Blocks;
   clock = Stopwatch();
   record.dual = build_dual(record.grid, dual, context).report;

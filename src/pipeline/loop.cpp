@@ -11,15 +11,13 @@
 #include "hexwright/grid/rescale.h"
 #include "hexwright/pipeline/fewest_hexes.h"
 
+#include "pipeline/budgets.h"
+
 namespace hexwright {
 namespace {
 
 /// Rounds without an improvement after which the loop ends: what still misses is out of its reach.
 constexpr int kPatience = 3;
-
-/// Open or overlapping surfaces leave misses that no depth of cells cures, where parts meet: the
-/// loop gets this share of its budget.
-constexpr std::size_t kDefectiveShare = 4;
 
 /// The mean falls with the square of the cells' size; aim a little below the goal, for it is an
 /// average over shapes that meet the lattice as chance has it.
@@ -65,8 +63,8 @@ std::vector<char> find_needed_leaves(const RoundInput& input, const Grid& grid) 
         const Box3 box = cell_box(grid, CellId(i));
         ClosestFilter filter;
         filter.max_distance = 0.5 * box.diagonal();
-        is_needed[i] =
-            input.tree.closest(box.center(), filter) || input.tree.is_inside(box.center());
+        is_needed[i] = input.target.tree.closest(box.center(), filter) ||
+                       input.target.tree.is_inside(box.center());
       },
       64);
   return is_needed;
@@ -85,6 +83,20 @@ std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const
   if (record.num_marked == 0) return {};
   return split_to_sizes(split_cells(round.grid, marks), round.crowded_features,
                         deepest_level(input.options));
+}
+
+/// The budget that a next grid would exceed, as a sentence; empty = none.
+std::string find_exceeded(const RoundInput& input, const Round& round, std::size_t num_cells,
+                          std::size_t num_spent, bool is_split) {
+  const Budgets& budgets = input.plan.budgets;
+  const auto cells = static_cast<double>(num_cells);
+  if (num_cells > budgets.background) return say_exceeded(Budget::Background, cells, budgets);
+  if (num_spent + num_cells > budgets.rounds)
+    return say_exceeded(Budget::Rounds, cells + static_cast<double>(num_spent), budgets);
+  if (is_split && is_out_of_proportion(input, round, num_cells))
+    return say_exceeded(Budget::Growth, cells / static_cast<double>(round.grid.num_cells()),
+                        budgets);
+  return {};
 }
 
 }  // namespace
@@ -110,7 +122,7 @@ bool is_better(const RoundInput& input, const Round& a, const Round& b) {
 bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells) {
   return is_within_gate(input, round) &&
          static_cast<double>(num_next_cells) >
-             kMaxGrowth * static_cast<double>(round.grid.num_cells());
+             input.plan.budgets.growth * static_cast<double>(round.grid.num_cells());
 }
 
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round) {
@@ -143,10 +155,11 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
 }
 
 CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even) {
-  const CompleteOptions& options = input.options.complete;
-  EvenOptions even = input.options.even;
+  const CompleteOptions& options = input.plan.complete;
+  EvenOptions even = input.plan.even;
   if (is_even) even.transition_cost = 0;
-  CompleteResult evened = even_levels(grid, input.tree, options, even, input.context).completed;
+  CompleteResult evened =
+      even_levels(grid, input.target.tree, options, even, input.context).completed;
   if (options.pairing != Pairing::Sheets) return evened;
   CompleteResult fewest = complete_with_fewest_hexes(evened.grid, options, input.context);
   fewest.report.num_input_cells = evened.report.num_input_cells;
@@ -156,8 +169,6 @@ CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even)
 
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
   const MeshOptions& options = input.options;
-  const bool is_sound = input.expected.is_known && result.surface.num_boundary_edges == 0;
-  const std::size_t budget = options.max_loop_hexes / (is_sound ? 1 : kDefectiveShare);
   Round current = run_round(input, std::move(completed));
   std::size_t total_hexes = current.record.num_background;
   Round best = current;
@@ -169,21 +180,11 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
     if (!finer) break;
     const bool is_split = result.rounds.back().num_marked > 0;
     CompleteResult next = even_out(input, *finer, !is_split);
-    const std::size_t num_cells = next.grid.num_cells();
-    if (num_cells > options.max_hexes || total_hexes + num_cells > budget) {
-      input.context.warn(fmt::format(
-          "refinement stops after round {}: the next grid has {} cells, beyond the budget of {} "
-          "per round or {} over all rounds",
-          result.num_rounds, num_cells, options.max_hexes, budget));
-      break;
-    }
-    if (!is_sound && is_split && is_out_of_proportion(input, current, num_cells)) {
+    const std::string exceeded =
+        find_exceeded(input, current, next.grid.num_cells(), total_hexes, is_split);
+    if (!exceeded.empty()) {
       input.context.warn(
-          fmt::format("refinement stops after round {}: the next grid has {} cells after {}, more "
-                      "than {} times "
-                      "as many, for a mesh that is {:.2g}% of the diagonal off at most",
-                      result.num_rounds, num_cells, current.grid.num_cells(), kMaxGrowth,
-                      100 * current.record.max_distance));
+          fmt::format("refinement stops after round {}: {}", result.num_rounds, exceeded));
       break;
     }
     current = run_round(input, std::move(next));

@@ -5,16 +5,10 @@
 
 namespace hexwright {
 
-/// On a defective surface, from a valid mesh within the gate, a round must not cost more than this
-/// factor in cells: misses that dense marks do not cure (along the seams of parts that overlap)
-/// would multiply the mesh. On a sound one the next round may well need many times the cells of a
-/// coarse mesh that came within the gate by luck.
-constexpr double kMaxGrowth = 2.5;
-
 /// Whether nothing is left to refine for: every demand is met, or beyond cure.
 bool is_content(const RoundInput& input, const Round& round);
 
-/// Whether a next grid of so many cells would break kMaxGrowth.
+/// Whether a next grid of so many cells would break the plan's Budgets::growth.
 bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells);
 
 /// Whether `a` is the better result. Beyond the gate the one without inverted hexes, then one that
@@ -36,7 +30,7 @@ std::vector<char> mark_misses(const RoundInput& input, const Round& round);
 CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even = false);
 
 /// Fits, measures, splits leaves that hold a miss, and repeats while that is called for and
-/// affordable. Needs `surface` and `sizing` of the result, and fills its rounds. Returns the best
+/// affordable. Needs `sizing` of the result, and fills its rounds. Returns the best
 /// round.
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result);
 

@@ -73,8 +73,26 @@ OptionTable fit_rows(FitOptions& options) {
            "it, or on it"},
           options.patch_verts,
           {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}}),
-      feature_angle_row(options.features),
   };
+}
+
+OptionTable prepare_rows(PrepareOptions& options) {
+  OptionTable table = {
+      choice_row<Parts>(
+          {"parts",
+           "Solids that overlap or touch: united; those that only touch kept apart; or all "
+           "surfaces "
+           "left as they are"},
+          options.parts,
+          {{"as-is", Parts::AsIs}, {"separate", Parts::Separate}, {"unite", Parts::Unite}}),
+      share_row(
+          {"min-part",
+           "Parts no longer than this share of the diagonal are left out, with a warning, and "
+           "voids filled"},
+          options.min_part),
+  };
+  table.back().fallback = "the tolerance";
+  return table;
 }
 
 /// A level asked for binds the loop too.
@@ -96,7 +114,8 @@ OptionTable make_option_table(MeshOptions& options) {
       {"placement",
        "The lattice along the part's faces, however they are turned (inside only), or along the "
        "given axes"},
-      options.placement, {{"as-given", Placement::AsGiven}, {"faces", Placement::Faces}}));
+      options.target.placement, {{"as-given", Placement::AsGiven}, {"faces", Placement::Faces}}));
+  append(table, prepare_rows(options.target.prepare));
   table.push_back(
       number_row({"transition-cost",
                   "What a cell beside another level counts more than one that is not, when levels "
@@ -111,6 +130,7 @@ OptionTable make_option_table(MeshOptions& options) {
   table.push_back(count_row({"max-hexes", "Budget of the background mesh"}, options.max_hexes));
   append(table, complete_rows(options.complete));
   append(table, fit_rows(options.fit));
+  table.push_back(feature_angle_row(options.target.features));
   return table;
 }
 
@@ -118,7 +138,7 @@ OptionTable make_grid_option_table(MeshOptions& options) {
   OptionTable table = sizing_rows(options.sizing);
   table.push_back(flag_row({"no-loop", "The stricter sizing of a single pass"},
                            [&options] { use_single_pass(options); }));
-  table.push_back(feature_angle_row(options.fit.features));
+  table.push_back(feature_angle_row(options.target.features));
   return table;
 }
 
@@ -134,10 +154,11 @@ OptionTable make_option_table(DualStageOptions& options) {
   };
 }
 
-OptionTable make_option_table(FitOptions& options) {
+OptionTable make_option_table(FitStageOptions& options) {
   OptionTable table = {flag_row({"no-carve", "The mesh already stands for the object: only fit it"},
-                                options.do_carve, false)};
-  append(table, fit_rows(options));
+                                options.fit.do_carve, false)};
+  append(table, fit_rows(options.fit));
+  table.push_back(feature_angle_row(options.target.features));
   return table;
 }
 

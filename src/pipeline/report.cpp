@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hexwright/io/set_summary.h"
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
@@ -20,6 +21,7 @@ using Json = nlohmann::ordered_json;
 // By the values of the enums; the names are those of the command line.
 constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
 constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
+constexpr const char* kPartsNames[] = {"unite", "separate", "as-is"};
 constexpr const char* kSideNames[] = {"inside", "outside", "both"};
 
 std::string to_text(const Json& json) {
@@ -29,28 +31,31 @@ std::string to_text(const Json& json) {
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Json describe_options(const MeshOptions& o) {
-  return {{"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
-          {"tolerance", o.sizing.tolerance},
-          {"deviation_factor", o.sizing.deviation_factor},
-          {"wall_factor", o.sizing.wall_factor},
-          {"crease_proximity", o.sizing.crease_proximity},
-          {"margin", o.sizing.margin},
-          {"min_level", o.sizing.min_level},
-          {"max_level", o.sizing.max_level},
-          {"loop_extra_levels", o.loop_extra_levels},
-          {"max_cells", o.sizing.max_cells},
-          {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
-          {"balance", kBalanceNames[static_cast<int>(resolve_balance(o.complete))]},
-          {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
-          {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
-          {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
-          {"placement", o.placement == Placement::AsGiven ? "as-given" : "faces"},
-          {"feature_angle_deg", degrees(o.fit.features.crease_angle)},
-          {"feature_edges_given", o.fit.features.extra_segments.size()},
-          {"mean_share", o.mean_share},
-          {"max_rounds", o.max_rounds},
-          {"max_hexes", o.max_hexes},
-          {"max_loop_hexes", o.max_loop_hexes}};
+  return {
+      {"parts", kPartsNames[static_cast<int>(o.target.prepare.parts)]},
+      {"min_part", o.target.prepare.min_part < 0 ? o.sizing.tolerance : o.target.prepare.min_part},
+      {"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
+      {"tolerance", o.sizing.tolerance},
+      {"deviation_factor", o.sizing.deviation_factor},
+      {"wall_factor", o.sizing.wall_factor},
+      {"crease_proximity", o.sizing.crease_proximity},
+      {"margin", o.sizing.margin},
+      {"min_level", o.sizing.min_level},
+      {"max_level", o.sizing.max_level},
+      {"loop_extra_levels", o.loop_extra_levels},
+      {"max_cells", o.sizing.max_cells},
+      {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
+      {"balance", kBalanceNames[static_cast<int>(resolve_balance(o.complete))]},
+      {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
+      {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
+      {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
+      {"placement", o.target.placement == Placement::AsGiven ? "as-given" : "faces"},
+      {"feature_angle_deg", degrees(o.target.features.crease_angle)},
+      {"feature_edges_given", o.target.features.extra_segments.size()},
+      {"mean_share", o.mean_share},
+      {"max_rounds", o.max_rounds},
+      {"max_hexes", o.max_hexes},
+      {"max_loop_hexes", o.max_loop_hexes}};
 }
 
 Json describe_surface(const SurfaceDiagnosis& s) {
@@ -61,7 +66,12 @@ Json describe_surface(const SurfaceDiagnosis& s) {
           {"boundary_edges", s.num_boundary_edges},
           {"nonmanifold_edges", s.num_nonmanifold_edges},
           {"flipped_triangles", s.num_flipped_tris},
-          {"was_inside_out", s.is_flipped_whole}};
+          {"was_inside_out", s.is_flipped_whole},
+          {"united_parts", s.num_united_parts},
+          {"unions", s.num_unions},
+          {"small_parts_left_out", s.num_small_parts},
+          {"small_voids_filled", s.num_small_voids},
+          {"notes", s.notes}};
 }
 
 Json describe_sizing(const SizingResult& s) {
@@ -120,6 +130,37 @@ Json describe_fit(const FitReport& f) {
   return fit;
 }
 
+Json describe_folded(const std::vector<FoldedHex>& folded) {
+  Json json = Json::array();
+  for (const FoldedHex& f : folded)
+    json.push_back({{"hex", f.hex.value()},
+                    {"center", {f.center.x, f.center.y, f.center.z}},
+                    {"scaled_jacobian", f.scaled_jacobian},
+                    {"object_tet", f.tet.value() + 1},
+                    {"map_is_folded_there", f.is_map_folded}});
+  return json;
+}
+
+Json describe_polycube(const PolycubeReport& r) {
+  return {{"tets", r.num_tets},
+          {"nonpositive_tets_object", r.num_nonpositive_object},
+          {"nonpositive_tets_polycube", r.num_nonpositive_polycube},
+          {"nonpositive_tets_after_repair", r.num_nonpositive_left},
+          {"charts", r.num_charts},
+          {"unaligned_facets", r.num_unaligned_facets},
+          {"max_plane_deviation", r.max_plane_deviation},
+          {"spacing", r.spacing},
+          {"roots", r.num_roots},
+          {"sampled_cells", r.num_sampled_cells},
+          {"cells", r.num_cells},
+          {"bridged_vertices", r.num_bridged},
+          {"inverted_after_mapping", r.num_inverted_mapped},
+          {"rounds", r.num_rounds},
+          {"max_distance", r.max_distance},
+          {"folded_hexes", describe_folded(r.folded)},
+          {"warnings", r.warnings}};
+}
+
 Json describe_stages(const MeshResult& r) {
   Json stages = Json::array();
   for (const StageRecord& s : r.stages)
@@ -173,6 +214,11 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"fit", describe_fit(result.fit)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
+  SetTable table = make_set_table(result.mesh);
+  name_by_place(result.mesh, table);
+  report["sets"] = Json::parse(sets_to_json(summarize_sets(result.mesh, table)));
+  for (const ChangedName& name : run.changed_names)
+    report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);
 }
 
@@ -185,5 +231,8 @@ std::string complete_to_json(const CompleteReport& complete) {
 }
 std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
 std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+std::string polycube_to_json(const PolycubeReport& polycube) {
+  return to_text(describe_polycube(polycube));
+}
 
 }  // namespace hexwright

@@ -3,17 +3,12 @@
 
 #include <algorithm>
 
+#include "base/stage_log.h"
 #include "pipeline/demands.h"
 #include "pipeline/feature_misses.h"
-#include "pipeline/stage_log.h"
 
 namespace hexwright {
 namespace {
-
-DualMode dual_mode_of(Pairing pairing) {
-  return pairing == Pairing::Blocks || pairing == Pairing::Octree ? DualMode::Blocks
-                                                                  : DualMode::Sheets;
-}
 
 void count(StageRecord& stage, const std::string& name, std::size_t value) {
   stage.counts[name] = static_cast<double>(value);
@@ -48,12 +43,12 @@ void find_refinable_features(const RoundInput& input, Round& round) {
   const bool is_mapped =
       round.fit.report.curve_length_mapped >= kMappedShare * recovery.total_length;
   if (!is_mapped && !is_within_gate(input, round)) return;
-  const double tolerance = input.options.judge.edge_tolerance * input.tree.diagonal();
+  const double tolerance = input.options.edge_tolerance * input.target.diagonal();
   round.refinable_features =
       find_refinable_features(round.grid, recovery, tolerance, deepest_level(input.options));
-  if (!input.features) return;
-  round.crowded_features = find_crowded_misses(round.grid, input.tree.surface(), *input.features,
-                                               recovery, kLeastFeatureCell * tolerance);
+  round.crowded_features =
+      find_crowded_misses(round.grid, input.target.surface(), input.target.features, recovery,
+                          kLeastFeatureCell * tolerance);
   for (const SizedPlace& place : round.crowded_features)
     round.refinable_features.push_back(place.position);
 }
@@ -72,29 +67,28 @@ int deepest_level(const MeshOptions& options) {
 /// Stages log their own counts, so that a report tells which of them made or lost hexes.
 Round run_round(const RoundInput& input, CompleteResult completed) {
   const Stopwatch clock;
-  const MeshOptions& options = input.options;
+  const StagePlan& plan = input.plan;
   Round round;
   round.grid = std::move(completed.grid);
   round.complete = std::move(completed.report);
 
-  DualOptions dual_options = options.dual;
-  dual_options.mode = dual_mode_of(options.complete.pairing);
   DualResult dual = run_stage(round.stages, "dual", input.context,
-                              [&] { return build_dual(round.grid, dual_options, input.context); });
+                              [&] { return build_dual(round.grid, plan.dual, input.context); });
   round.dual = dual.report;
   round.dual.num_hexes = dual.mesh.num_hexes();
   count(round.stages.back(), "hexes", dual.mesh.num_hexes());
   count(round.stages.back(), "vertices", dual.mesh.num_verts());
 
-  round.fit = run_stage(round.stages, "fit", input.context,
-                        [&] { return fit(dual.mesh, input.tree, options.fit, input.context); });
+  round.fit = run_stage(round.stages, "fit", input.context, [&] {
+    return fit_unlifted(dual.mesh, input.target, plan.fit, input.context);
+  });
   count(round.stages.back(), "hexes", round.fit.mesh.num_hexes());
   count(round.stages.back(), "carved", round.fit.report.num_hexes_carved);
   count(round.stages.back(), "padded", round.fit.report.num_hexes_padded);
 
   if (round.fit.mesh.num_hexes() > 0)
     round.verdict = run_stage(round.stages, "judge", input.context, [&] {
-      return judge(round.fit.mesh, input.tree, options.judge, input.context);
+      return judge(round.fit.mesh, input.target, plan.judge, input.context);
     });
   else
     round.verdict.failures.push_back(
@@ -102,6 +96,22 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   find_refinable_features(input, round);
   round.record = make_record(round, clock.seconds());
   return round;
+}
+
+Round lift_round(const RoundInput& input, Round round) {
+  if (!round.fit.memory) return round;
+  Round lifted = round;
+  lifted.fit = run_stage(lifted.stages, "lift", input.context, [&] {
+    return lift_fit(*round.fit.memory, input.target, input.plan.fit, input.context);
+  });
+  lifted.verdict = run_stage(lifted.stages, "judge", input.context, [&] {
+    return judge(lifted.fit.mesh, input.target, input.plan.judge, input.context);
+  });
+  round.fit.memory.reset();
+  for (const Demand& demand : demands())
+    if (demand.sentence && demand.is_met(input, round) && !demand.is_met(input, lifted))
+      return round;
+  return lifted;
 }
 
 }  // namespace hexwright

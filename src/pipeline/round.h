@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "hexwright/geometry/expected_topology.h"
-#include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/plan.h"
 
 #include "pipeline/crowded_features.h"
 
@@ -15,12 +14,10 @@ constexpr double kGateFactor = 2;
 
 /// What all rounds share.
 struct RoundInput {
-  const SurfaceTree& tree;
+  const Target& target;
   const MeshOptions& options;
-  const ExpectedTopology& expected;
+  const StagePlan& plan;
   const Context& context;
-  /// The curves of the verdicts; without them none is taken to be crowded.
-  const FeatureGraph* features = nullptr;
 };
 
 struct Round {
@@ -37,8 +34,13 @@ struct Round {
   RoundRecord record;
 };
 
-/// Runs the stages on an already completed grid.
+/// Runs the stages on an already completed grid, without the lift.
 Round run_round(const RoundInput& input, CompleteResult completed);
+
+/// Lets the boundary of a round's mesh leave the surface within the tolerance where that raises its
+/// least scaled Jacobian; the round as it was when that misses a demand that is met now and that
+/// users are told of.
+Round lift_round(const RoundInput& input, Round round);
 
 /// The mean two-way distance the loop is content with, a share of the diagonal; 0 = any.
 inline double mean_goal(const MeshOptions& options) {

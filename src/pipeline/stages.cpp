@@ -4,16 +4,18 @@
 #include <optional>
 
 #include "hexwright/base/error.h"
+#include "hexwright/pipeline/plan.h"
 
 namespace hexwright {
 
 SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
                           const Context& context) {
-  const PreparedSurface prepared = prepare_surface(surface, context);
-  const double diagonal = bounding_box(prepared.mesh).diagonal();
-  const FeatureGraph features =
-      extract_features(prepared.mesh, features_for_sizing(options.fit.features, diagonal));
-  return build_grid(prepared.mesh, features, options.sizing, context);
+  MeshOptions as_given = options;
+  as_given.target.placement = Placement::AsGiven;  // grids have no axes of their own
+  const Target target = make_target(surface, plan_target(as_given), context);
+  SizingResult result = build_grid(target, plan(as_given, target).sizing, context);
+  result.to_world(target.frame);
+  return result;
 }
 
 namespace {

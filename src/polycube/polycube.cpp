@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "hexwright/geometry/similarity.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/surface_distance.h"
 
@@ -90,6 +91,13 @@ struct Attempt {
   }
 };
 
+/// The map's own curves count, not the surface's creases: no edge reaches this angle.
+FeatureOptions without_creases() {
+  FeatureOptions options;
+  options.crease_angle = 4;
+  return options;
+}
+
 class Mesher {
  public:
   Mesher(const TetMesh& object, const polycube::Lattice& lattice, const PolycubeOptions& options,
@@ -102,7 +110,7 @@ class Mesher {
         in_object_(object),
         boundary_(lattice),
         features_(polycube::object_features(object, lattice)),
-        surface_(features_.surface) {}
+        target_(wrap_target(features_.surface, without_creases())) {}
 
   PolycubeResult run(PolycubeReport report) {
     Grid sampled =
@@ -135,13 +143,13 @@ class Mesher {
     auto mapped = polycube::map_back(dual.mesh, object_, lattice_, in_polycube_);
     a.num_bridged = mapped.num_bridged;
     a.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
-    polycube::relax(mapped, features_, lattice_, relax_options(), context_);
+    polycube::relax(mapped, {features_, lattice_, target_.tree}, relax_options(), context_);
     a.mesh = std::move(mapped.mesh);
     a.num_inverted = summarize_quality(a.mesh).num_inverted;
     if (options_.max_surface_error > 0) {
       DistanceOptions distance;
       distance.hot_threshold = 0.9 * options_.max_surface_error;
-      a.distance = measure_distance(a.mesh, surface_, distance);
+      a.distance = measure_distance(a.mesh, target_.tree, distance);
     }
     return a;
   }
@@ -149,7 +157,7 @@ class Mesher {
   // A third of the distance allowed is left to what lies between the vertices.
   polycube::RelaxOptions relax_options() const {
     const double share = options_.max_surface_error > 0 ? options_.max_surface_error : 0.003;
-    return {options_.pad, 0.33 * share * surface_.box().diagonal()};
+    return {options_.pad, 0.33 * share * target_.diagonal()};
   }
 
   // Splits the cells that the missed points map into; false when none can be split.
@@ -194,7 +202,9 @@ class Mesher {
     report.num_inverted_mapped = best.num_inverted_mapped;
     report.max_distance = best.distance.max_two_way();
     report.folded = find_folded(best.mesh);
-    return {std::move(best.mesh), std::move(best.grid), features_.surface, std::move(report)};
+    Verdict verdict = judge(best.mesh, target_, {}, context_);
+    return {std::move(best.mesh), std::move(best.grid), features_.surface, std::move(report),
+            std::move(verdict)};
   }
 
   const TetMesh& object_;
@@ -204,17 +214,43 @@ class Mesher {
   polycube::TetLocator in_polycube_, in_object_;
   polycube::BoundaryMap boundary_;
   polycube::ObjectFeatures features_;
-  SurfaceTree surface_;
+  Target target_;
 };
+
+/// Places the object in the unit frame, with the options that speak of its lengths.
+Similarity place(TetMesh& object, PolycubeOptions& options) {
+  Box3 box;
+  for (const Vec3& p : object.positions) box.extend(p);
+  const Similarity frame = compute_unit_frame(box);
+  for (Vec3& p : object.positions) p = frame.to_unit(p);
+  if (options.max_edge)
+    options.max_edge = [frame, in_world = options.max_edge](const Vec3& p) {
+      return frame.length_to_unit(in_world(frame.to_world(p)));
+    };
+  return frame;
+}
 
 }  // namespace
 
+void PolycubeReport::to_world(const Similarity& frame) {
+  for (FoldedHex& hex : folded) hex.to_world(frame);
+}
+
+void PolycubeResult::to_world(const Similarity& frame) {
+  mesh = hexwright::to_world(std::move(mesh), frame);
+  for (Vec3& p : surface.positions) p = frame.to_world(p);
+  report.to_world(frame);
+  verdict.to_world(frame);
+}
+
 PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_in,
-                             const PolycubeOptions& options, const Context& context) {
+                             const PolycubeOptions& given, const Context& context) {
   const auto watch = context.watch();
   check_pair(object_in, polycube_in);
   TetMesh object = object_in, polycube = polycube_in;
   orient(object, polycube);
+  PolycubeOptions options = given;
+  const Similarity frame = place(object, options);
 
   polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
   PolycubeReport report;
@@ -227,6 +263,7 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   PolycubeResult result = Mesher(object, lattice, options, context).run(std::move(report));
   // The repair may have cut tets; the user knows those of the files.
   for (FoldedHex& f : result.report.folded) f.tet = repair.to_input[f.tet];
+  result.to_world(frame);
   return result;
 }
 

@@ -216,10 +216,10 @@ void label(const FitState& state, const HexMesh& mapped, const FitTarget& target
 
 }  // namespace
 
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
-           const RelaxOptions& options, const Context& context) {
+void relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
+           const Context& context) {
+  const auto& [object, lattice, tree] = scene;
   const FeatureGraph graph = chart_curves(object);
-  const SurfaceTree tree(object.surface);
   IdVector<TriId, PatchId> facet_to_patch(lattice.facets.size());
   for (TriId f : lattice.facets.ids()) facet_to_patch[f] = PatchId(lattice.facet_to_chart[f]);
   const PatchIndex patches(tree, std::move(facet_to_patch));

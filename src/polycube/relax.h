@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hexwright/base/context.h"
+#include "hexwright/geometry/surface_tree.h"
 
 #include "polycube/map_back.h"
 
@@ -14,9 +15,16 @@ struct RelaxOptions {
                             ///< short of nearly flat hexes, the others while quality hardly suffers
 };
 
+/// What the mesh is relaxed onto.
+struct RelaxScene {
+  const ObjectFeatures& object;
+  const Lattice& lattice;
+  const SurfaceTree& tree;  ///< of object.surface
+};
+
 /// Labels the boundary (patch = chart, curves, corners) and moves vertices; never inverts a hex
 /// that is not inverted.
-void relax(MappedMesh& mapped, const ObjectFeatures& object, const Lattice& lattice,
-           const RelaxOptions& options, const Context& context);
+void relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
+           const Context& context);
 
 }  // namespace hexwright::polycube

@@ -152,6 +152,12 @@ void add_up(const CurveSamples& samples, const std::vector<char>& is_recovered,
 
 }  // namespace
 
+void FeatureRecovery::to_world(const Similarity& frame) {
+  total_length = frame.length_to_world(total_length);
+  for (CurveRecovery& curve : curves) curve.to_world(frame);
+  for (MissedFeature& miss : missed) miss.to_world(frame);
+}
+
 FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& tree,
                                  const FeatureGraph& features, const JudgeOptions& options) {
   const TriMesh& surface = tree.surface();
@@ -162,7 +168,7 @@ FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& tree,
     result.curves.push_back({curve.length(), total_turn(surface, curve), 1});
   if (features.empty()) return result;
   const double diagonal = tree.diagonal();
-  const auto edges = collect_edges(collect_judged_quads(mesh, options.distance.quads));
+  const auto edges = collect_edges(collect_judged_quads(mesh, options.quads));
   if (result.total_length > 0) {
     const double tolerance = options.edge_tolerance * diagonal;
     const CurveSamples samples = sample_curves(surface, features, tolerance);

@@ -48,7 +48,7 @@ Verdict judge_mesh(const HexMesh& mesh, const Context& context) {
 
 // Components and genus of the boundary beside those of the surface, where both are defined.
 void compare_topology(Verdict& verdict, const JudgeOptions& options) {
-  if (options.distance.quads != JudgedQuads::Boundary) return;
+  if (options.quads != JudgedQuads::Boundary) return;
   if (!verdict.surface->is_closed_manifold()) {
     verdict.warnings.push_back(
         "the surface is not a closed manifold: its components and genus were not compared");
@@ -62,6 +62,14 @@ void compare_topology(Verdict& verdict, const JudgeOptions& options) {
   if (verdict.topology.genus() != verdict.surface->genus())
     verdict.warnings.push_back(fmt::format("the mesh's boundary has genus {}, the surface {}",
                                            verdict.topology.genus(), verdict.surface->genus()));
+}
+
+/// All of a sound surface bounds the solid: no sample need be excused.
+DistanceOptions distance_options(const Target& target, const JudgeOptions& options) {
+  return {.quads = options.quads,
+          .spacing = options.spacing,
+          .hot_threshold = options.hot_threshold,
+          .solid_only = !target.expected.is_known};
 }
 
 /// Other units or another origin are the likely cause.
@@ -84,22 +92,36 @@ Verdict judge(const HexMesh& mesh, const JudgeOptions&, const Context& context) 
   return verdict;
 }
 
-Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOptions& options,
+Verdict judge(const HexMesh& mesh, const Target& target, const JudgeOptions& options,
               const Context& context) {
   const auto watch = context.watch();
   Verdict verdict = judge_mesh(mesh, context);
   context.check_cancelled();
   context.progress("check", 0.5);
-  verdict.surface = compute_topology(surface.surface());
+  verdict.surface = target.topology;
   compare_topology(verdict, options);
-  verdict.distance = measure_distance(mesh, surface, options.distance);
+  verdict.distance = measure_distance(mesh, target.tree, distance_options(target, options));
   warn_of_other_place(verdict);
   context.check_cancelled();
   context.progress("check", 0.9);
-  const FeatureGraph features = extract_features(surface, options.features);
-  verdict.features = measure_features(mesh, surface, features, options);
+  verdict.features = measure_features(mesh, target.tree, target.features, options);
   context.progress("check", 1);
   return verdict;
+}
+
+Verdict judge(const HexMesh& mesh, const TriMesh& surface, const TargetOptions& target_options,
+              const JudgeOptions& options, const Context& context) {
+  require_sound_arrays(mesh);
+  const Target target = make_target(surface, target_options, context);
+  Verdict verdict = judge(to_unit(mesh, target.frame), target, options, context);
+  verdict.to_world(target.frame);
+  return verdict;
+}
+
+void Verdict::to_world(const Similarity& frame) {
+  quality.to_world(frame);
+  if (distance) distance->to_world(frame);
+  if (features) features->to_world(frame);
 }
 
 }  // namespace hexwright

@@ -151,6 +151,12 @@ double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weig
 
 }  // namespace
 
+void SurfaceDistance::to_world(const Similarity& frame) {
+  worst_on_surface = frame.to_world(worst_on_surface);
+  worst_on_mesh = frame.to_world(worst_on_mesh);
+  for (Vec3& p : hot) p = frame.to_world(p);
+}
+
 SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface,
                                  const DistanceOptions& options) {
   if (!(options.spacing > 0) || !(options.hot_threshold >= 0))

@@ -45,26 +45,29 @@ std::vector<char> FitState::inside_hexes() const {
   return inside;
 }
 
+bool FitState::is_fitted_face(const HexFace& face) const {
+  const HexId other = neighbors.neighbor[face.hex][static_cast<std::size_t>(face.lf)];
+  if (side == Side::Both) {
+    if (mesh.region[face.hex] != kInsideRegion) return false;
+    if (other.is_valid() && mesh.region[other] == kInsideRegion) return false;
+  } else if (other.is_valid()) {
+    return false;
+  }
+  const auto quad = face_verts(mesh, face);
+  return std::any_of(quad.begin(), quad.end(), [&](VertId v) { return move[v] == MoveIn::Space; });
+}
+
 void FitState::find_quads() {
   quad_face.clear();
   quads.clear();
-  const auto is_held = [&](VertId v) { return move[v] != MoveIn::Space; };
-  const auto add = [&](const HexFace& face) {
-    auto quad = face_verts(mesh, face);
-    if (std::all_of(quad.begin(), quad.end(), is_held)) return;  // of the fixed outer box
-    if (side == Side::Outside) std::swap(quad[1], quad[3]);
-    quad_face.push_back(face);
-    quads.push_back(quad);
-  };
-  if (side != Side::Both) {
-    for (const HexFace& face : neighbors.boundary) add(face);
-    return;
-  }
   for (HexId h : mesh.hexes.ids()) {
-    if (mesh.region[h] != kInsideRegion) continue;
     for (int lf = 0; lf < 6; ++lf) {
-      const HexId other = neighbors.neighbor[h][static_cast<std::size_t>(lf)];
-      if (!other.is_valid() || mesh.region[other] != kInsideRegion) add({h, lf});
+      const HexFace face{h, lf};
+      if (!is_fitted_face(face)) continue;
+      auto quad = face_verts(mesh, face);
+      if (side == Side::Outside) std::swap(quad[1], quad[3]);
+      quad_face.push_back(face);
+      quads.push_back(quad);
     }
   }
 }

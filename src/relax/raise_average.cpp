@@ -70,16 +70,14 @@ void sweep_for_average(FitState& state, double least, const AverageOptions& opti
 
 void raise_average(FitState& state, const FitTarget& target, const AverageOptions& options,
                    const Context& context) {
-  const auto quality = compute_scaled_jacobians(state.mesh);
-  const double least = *std::min_element(quality.begin(), quality.end());
   update_targets(state, target, 0);
   state.mark_all_dirty();
   {
     // Curves keep their vertices: where these gather, chords elsewhere leave the curve.
     const SlideOnly slide(state, std::vector<char>(state.num_verts(), 1), true);
-    sweep_for_average(state, least, options, context);
+    sweep_for_average(state, options.floor, options, context);
   }
-  snap_to_targets(state, target, least);
+  snap_to_targets(state, target, options.floor);
 }
 
 }  // namespace hexwright::relax

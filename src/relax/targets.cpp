@@ -11,11 +11,6 @@
 namespace hexwright::relax {
 namespace {
 
-// A vertex that moved by less than this, in h, since it last looked keeps its target: what it is
-// pulled to is a plane, off the surface by less than half the curvature times the square of the
-// way.
-constexpr double kSamePlace = 0.01;
-
 // Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
 IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<const char> only) {
   IdVector<VertId, Vec3> normals(state.num_verts());
@@ -32,18 +27,13 @@ IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<c
 
 class SurfaceMatcher {
  public:
-  SurfaceMatcher(const FitState& state, const FitTarget& target, VertId v, const Vec3& normal)
+  SurfaceMatcher(const SurfaceSeeker& seeker, const FitTarget& target)
       : target_(target),
-        x_(state.mesh.positions[v]),
-        normal_(normal),
-        h_(state.size[v]),
-        patch_(state.patch[v]) {
-    // The last target bounds the search: it is on the surface, mostly still on the right side of
-    // it.
-    if (state.direction[v] != Vec3{})
-      bound_ = (1 + 1e-6) * (hexwright::distance(x_, state.target[v]) + std::abs(state.offset[v])) +
-               1e-9 * h_;
-  }
+        x_(seeker.position),
+        normal_(seeker.normal),
+        h_(seeker.size),
+        patch_(seeker.patch),
+        bound_(seeker.bound) {}
 
   std::optional<ClosestPoint> find() const {
     auto best = patch_.is_valid() ? find_on_patch() : std::nullopt;
@@ -87,7 +77,7 @@ class SurfaceMatcher {
   Vec3 x_, normal_;
   double h_;
   PatchId patch_;
-  double bound_ = std::numeric_limits<double>::infinity();
+  double bound_;
 };
 
 void update_surface_target(FitState& state, const FitTarget& to, VertId v, const Vec3& normal) {
@@ -96,22 +86,32 @@ void update_surface_target(FitState& state, const FitTarget& to, VertId v, const
   if (query.patch == last.patch && query.offset == last.offset &&
       norm_sq(query.from - last.from) < kSamePlace * kSamePlace * state.size[v] * state.size[v])
     return;
-  const auto found = SurfaceMatcher(state, to, v, normal).find();
-  if (!found) return;
+  SurfaceSeeker seeker = {query.from, normal, state.size[v], query.patch, query.offset};
+  // The last target bounds the search: it is on the surface, mostly still on the right side of it.
+  if (state.direction[v] != Vec3{})
+    seeker.bound = (1 + 1e-6) * (distance(query.from, state.target[v]) + std::abs(query.offset)) +
+                   1e-9 * seeker.size;
+  const auto match = match_surface(seeker, to);
+  if (!match) return;
   last = query;
-  const Vec3 offset = state.mesh.positions[v] - found->point;
-  const double length = norm(offset), h = state.size[v];
-  Vec3 direction = length < 1e-3 * h ? to.tree.normal(found->tri) : offset / length;
-  if (dot(direction, normal) < 0) direction = -direction;  // outwards, whatever the orientation
-  const Vec3 point = found->point + state.offset[v] * direction;
-  if (distance(point, state.target[v]) > 1e-5 * h ||
-      std::abs(dot(direction, state.direction[v])) < 0.9999)
+  if (distance(match->target, state.target[v]) > 1e-5 * seeker.size ||
+      std::abs(dot(match->direction, state.direction[v])) < 0.9999)
     state.is_dirty[v] = 1;
-  state.target[v] = point;
-  state.direction[v] = direction;
+  state.target[v] = match->target;
+  state.direction[v] = match->direction;
 }
 
 }  // namespace
+
+std::optional<SurfaceMatch> match_surface(const SurfaceSeeker& seeker, const FitTarget& target) {
+  const auto found = SurfaceMatcher(seeker, target).find();
+  if (!found) return {};
+  const Vec3 offset = seeker.position - found->point;
+  const double length = norm(offset);
+  Vec3 direction = length < 1e-3 * seeker.size ? target.tree.normal(found->tri) : offset / length;
+  if (dot(direction, seeker.normal) < 0) direction = -direction;  // whatever the orientation
+  return SurfaceMatch{found->point + seeker.offset * direction, direction};
+}
 
 void update_targets(FitState& state, const FitTarget& target, double hold,
                     std::span<const char> only) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace hexwright {
 
@@ -17,6 +18,10 @@ struct Color {
 inline Color mix(const Color& first, const Color& second, float share_of_second) {
   return (1 - share_of_second) * first + share_of_second * second;
 }
+
+/// For lists of names: neighbours differ much; after fifteen the hues come again, lighter. The page
+/// of viewer/ has the same.
+Color category_color(std::size_t i);
 
 /// Red at 0 and below, through yellow, to blue at 1 and above; grey when the value is not a number.
 Color quality_color(double value);

@@ -10,12 +10,17 @@
 
 #include "render/ambient_occlusion.h"
 #include "render/camera.h"
+#include "render/creases.h"
+#include "render/face_patches.h"
 #include "render/legend.h"
 #include "render/rasterizer.h"
 #include "render/visible_faces.h"
 
 namespace hexwright {
 namespace {
+
+constexpr Color kFocusColor = {0.88F, 0.0F, 0.66F};
+constexpr Color kNoPatchColor = {0.78F, 0.8F, 0.83F};
 
 void check_options(const HexMesh& mesh, const PictureOptions& options) {
   const auto require = [](bool holds, const char* message) {
@@ -32,6 +37,10 @@ void check_options(const HexMesh& mesh, const PictureOptions& options) {
           "the normal of the cut must not be zero");
   require(options.values.empty() || options.values.size() == mesh.num_hexes(),
           "a picture needs one value per hex, or none");
+  require(options.focus.value() < static_cast<std::int64_t>(mesh.num_hexes()),
+          "the hex that a picture is about is not in the mesh");
+  require(options.letter_size >= 0 && options.letter_size <= 1000,
+          "letters must be of 0 to 1000 pixels");
   if (const auto issue = mesh.find_problem()) require(false, issue->message.c_str());
 }
 
@@ -47,9 +56,9 @@ std::vector<Vec3> visible_positions(const HexMesh& mesh, const std::vector<Visib
 }
 
 // The legend takes its strip at the right; the mesh is framed in what is left.
-Viewport place_viewport(const Image& image, bool with_legend) {
+Viewport place_viewport(const Image& image, int legend) {
   const double margin = 0.04 * std::min(image.width, image.height);
-  const double right = with_legend ? legend_width(image) + margin : margin;
+  const double right = legend > 0 ? legend + margin : margin;
   return {margin, margin, std::max(1.0, image.width - margin - right), image.height - 2 * margin};
 }
 
@@ -67,12 +76,15 @@ double signed_area(const std::array<ScreenPoint, 4>& c) {
   return (c[2].x - c[0].x) * (c[3].y - c[1].y) - (c[2].y - c[0].y) * (c[3].x - c[1].x);
 }
 
+// Fainter on the boundary: there the lines of many small quads would hide the shape.
+float line_share_of(const VisibleFace& visible) { return visible.is_boundary ? 0.5F : 0.85F; }
+
 // Edges fade where the faces become so small that lines would cover them.
 float line_share(const std::array<ScreenPoint, 4>& c) {
   double perimeter = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    perimeter += std::hypot(c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y);
-  return static_cast<float>(0.85 * std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
+    perimeter += norm(Vec3{c[(k + 1) % 4].x - c[k].x, c[(k + 1) % 4].y - c[k].y, 0});
+  return static_cast<float>(std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
 }
 
 // A face is a back face when it runs clockwise on the screen: seen from inside its hex, through a
@@ -90,22 +102,66 @@ ShadedQuad shade(const HexMesh& mesh, const VisibleFace& visible, const Camera& 
   const Vec3 outward = normalized(cross(p[2] - p[0], p[3] - p[1]));
   quad.normal = camera.to_view(quad.is_back ? -outward : outward);
   quad.color = light(quad.normal) * color;
-  quad.line_share = line_share(quad.corners);
+  quad.line_share = line_share_of(visible) * line_share(quad.corners);
+  quad.bold_sides = visible.bold_sides;
+  if (visible.is_focus) {
+    quad.bold_sides = 0xf;
+    quad.line_color = kFocusColor;
+  }
   return quad;
 }
 
+std::vector<Color> color_faces(const HexMesh& mesh, const std::vector<VisibleFace>& faces,
+                               const std::vector<double>& values, const PictureOptions& options) {
+  const bool by_patch = options.colors == PictureColors::Patches;
+  const bool is_faded =
+      !by_patch && options.fade_boundary && (options.cut || options.focus.is_valid());
+  const auto patches = by_patch ? find_face_patches(mesh) : std::vector<PatchId>();
+  std::vector<Color> colors;
+  colors.reserve(faces.size());
+  for (const VisibleFace& visible : faces) {
+    Color color = by_patch ? kNoPatchColor : quality_color(values[visible.face.hex.index()]);
+    if (is_faded && visible.is_boundary && !visible.is_focus)
+      color = mix(color, {0.97F, 0.96F, 0.94F}, 0.85F);
+    if (!patches.empty() && patches[face_slot(visible.face)].is_valid())
+      color = category_color(patches[face_slot(visible.face)].index());
+    colors.push_back(color);
+  }
+  return colors;
+}
+
 std::vector<ShadedQuad> shade_faces(const HexMesh& mesh, const std::vector<VisibleFace>& faces,
-                                    const std::vector<double>& values, const Camera& camera,
+                                    const std::vector<Color>& colors, const Camera& camera,
                                     const PictureOptions& options) {
-  const bool is_faded = options.cut && options.fade_boundary;
   std::vector<ShadedQuad> quads(faces.size());
   parallel_for(faces.size(), [&](std::size_t i) {
-    Color color = quality_color(values[faces[i].face.hex.index()]);
-    if (is_faded && faces[i].is_boundary) color = mix(color, {0.97F, 0.96F, 0.94F}, 0.85F);
-    quads[i] = shade(mesh, faces[i], camera, color);
-    if (!options.draw_edges) quads[i].line_share = 0;
+    quads[i] = shade(mesh, faces[i], camera, colors[i]);
+    if (options.draw_edges) return;
+    quads[i].line_share = 0;
+    quads[i].bold_sides = 0;
   });
   return quads;
+}
+
+// Letters grow with the picture.
+double letter_size(const PictureOptions& options) {
+  return options.letter_size > 0 ? options.letter_size : std::max(8.0, options.width / 80.0);
+}
+
+// Largest first: a legend may have room for a few only.
+std::vector<NamedColor> list_patches(const HexMesh& mesh) {
+  std::vector<std::pair<std::size_t, std::size_t>> patches;  // quads, patch
+  for (const LabeledQuad& quad : mesh.labels.quads) {
+    if (!quad.patch.is_valid()) continue;
+    while (patches.size() <= quad.patch.index()) patches.emplace_back(0, patches.size());
+    ++patches[quad.patch.index()].first;
+  }
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<NamedColor> names;
+  for (const auto& [num_quads, patch] : patches)
+    if (num_quads > 0) names.push_back({patch_name(mesh, PatchId(patch)), category_color(patch)});
+  return names;
 }
 
 void copy_pixels(const Raster& raster, Image& image) {
@@ -125,15 +181,25 @@ Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options) {
   Image image{options.width, options.height, {}};
   const auto values =
       options.values.empty() ? compute_scaled_jacobians(mesh).raw() : options.values;
-  const auto faces = find_visible_faces(mesh, options.cut);
+  auto faces = options.focus.is_valid()
+                   ? find_faces_about(mesh, options.focus, options.view_direction)
+                   : find_visible_faces(mesh, options.cut);
+  if (options.draw_edges) mark_creases(mesh, faces);
+  const double letters = letter_size(options);
   const Camera camera(visible_positions(mesh, faces), options.view_direction,
-                      place_viewport(image, options.draw_legend));
+                      place_viewport(image, options.draw_legend ? legend_width(letters) : 0));
   RasterOptions raster_options{options.width, options.height, options.supersample, 1};
   raster_options.line_width = std::max(0.7, options.width / 1100.0);
-  Raster raster = rasterize(shade_faces(mesh, faces, values, camera, options), raster_options);
+  raster_options.bold_width = (options.focus.is_valid() ? 4 : 2.2) * raster_options.line_width;
+  const auto colors = color_faces(mesh, faces, values, options);
+  Raster raster = rasterize(shade_faces(mesh, faces, colors, camera, options), raster_options);
   apply_ambient_occlusion(raster, camera.focal_length());
   copy_pixels(raster, image);
-  if (options.draw_legend) draw_legend(image, options.legend_title, values);
+  if (!options.draw_legend) return image;
+  if (options.colors == PictureColors::Patches)
+    draw_names(image, list_patches(mesh), letters);
+  else
+    draw_legend(image, options.legend_title, values, letters);
   return image;
 }
 

@@ -22,7 +22,6 @@ constexpr int kBandHeight = 16;  // pixels
 // Both sides of a face between a hex kept and one cut away lie at the same depth: the front one
 // must win whatever the order.
 constexpr float kBackFacePenalty = 1e-4F;  // of the nearness
-constexpr Color kLine = {0.10F, 0.11F, 0.14F};
 
 // What a sample sees: its quad (-1: nothing), and how much of the edge colour.
 struct Sample {
@@ -36,7 +35,7 @@ struct ScreenLine {
   double a = 0, b = 0, c = 0;
   ScreenLine() = default;
   ScreenLine(const ScreenPoint& p, const ScreenPoint& q) {
-    const double length = std::hypot(q.x - p.x, q.y - p.y);
+    const double length = norm({q.x - p.x, q.y - p.y, 0});
     if (length == 0) return;
     a = -(q.y - p.y) / length;
     b = (q.x - p.x) / length;
@@ -107,11 +106,14 @@ class Band {
     Sample& sample = samples_[index_of(row, column)];
     if (nearness <= sample.nearness) return;
     sample = {nearness, index, 0};
-    if (quad.line_share <= 0) return;
+    if (quad.line_share <= 0 && quad.bold_sides == 0) return;
     const double x = position(column), y = first_row_ + position(row);
     for (std::size_t k = 0; k < 4; ++k) {
       const ScreenLine side(quad.corners[k], quad.corners[(k + 1) % 4]);
-      if (std::abs(side.value(x, y)) <= options_.line_width / 2) sample.line = quad.line_share;
+      const bool is_bold = (quad.bold_sides >> k & 1) != 0;
+      const double width = is_bold ? options_.bold_width : options_.line_width;
+      if (std::abs(side.value(x, y)) <= width / 2)
+        sample.line = std::max(sample.line, is_bold ? 1.0F : quad.line_share);
     }
   }
 
@@ -123,9 +125,8 @@ class Band {
     for (int sy = 0; sy < n; ++sy)
       for (int sx = 0; sx < n; ++sx) {
         const Sample& s = samples_[index_of(row * n + sy, x * n + sx)];
-        sum =
-            sum + (s.quad < 0 ? background(first_row_ + row, options_.height)
-                              : mix(quads[static_cast<std::size_t>(s.quad)].color, kLine, s.line));
+        sum = sum + (s.quad < 0 ? background(first_row_ + row, options_.height)
+                                : line_over(quads[static_cast<std::size_t>(s.quad)], s.line));
       }
     const std::size_t pixel = raster.at(x, first_row_ + row);
     raster.color[pixel] = (1.0F / static_cast<float>(n * n)) * sum;
@@ -133,6 +134,10 @@ class Band {
     raster.nearness[pixel] = middle.nearness;
     if (middle.quad >= 0)
       raster.normal[pixel] = quads[static_cast<std::size_t>(middle.quad)].normal;
+  }
+
+  static Color line_over(const ShadedQuad& quad, float share) {
+    return mix(quad.color, quad.line_color, share);
   }
 
   std::size_t index_of(int row, int column) const {

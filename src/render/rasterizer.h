@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "hexwright/base/vec3.h"
@@ -11,12 +12,16 @@
 
 namespace hexwright {
 
+inline constexpr Color kLineColor = {0.10F, 0.11F, 0.14F};
+
 struct ShadedQuad {
   std::array<ScreenPoint, 4> corners;
   Color color;           ///< lit
   Vec3 normal;           ///< towards the eye, in the camera's frame
   float line_share = 0;  ///< how dark its edges are drawn
   bool is_back = false;  ///< seen from inside its hex; loses against a front face at equal depth
+  std::uint8_t bold_sides = 0;  ///< bits of sides (k to k + 1) drawn wider and fully
+  Color line_color = kLineColor;
 };
 
 /// Colours with the depth and normal of what is seen at each pixel's middle.
@@ -36,6 +41,7 @@ struct RasterOptions {
   int width = 0, height = 0;
   int supersample = 1;
   double line_width = 1;  ///< pixels
+  double bold_width = 2;  ///< pixels
 };
 
 /// Draws over a pale background. The same image for any number of threads.

@@ -69,6 +69,21 @@ def check_agreements(page):
     assert page.locator("#agreeing .strip img").count() >= 5 * len(named)
 
 
+def check_links(page, report):
+    """Each model that was meshed has a page to look into its mesh with, which opens from there."""
+    links = page.eval_on_selector_all("#models a.look", "links => links.map(a => a.href)")
+    assert len(links) == 2, links
+    files = [report.parent / "pages" / f"{name}.html" for name in ("3holes.obj", "cube_minus_sphere.obj")]
+    assert sorted(links) == [f.resolve().as_uri() for f in files], links
+    view = page.context.browser.new_page()
+    problems = []
+    view.on("console", lambda message: problems.append(message.text))
+    view.goto(links[0])
+    view.wait_for_selector("body[data-ready]", timeout=60000)
+    assert view.text_content("#title") == "3holes.obj" and problems == [], problems
+    view.close()
+
+
 def check_sorting_and_filtering(page):
     head = page.locator("#models th", has_text="input cells")
     head.click()
@@ -120,7 +135,7 @@ def take_pictures(browser, report, prefix):
 def main():
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
         try:
-            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader"])
         except PlaywrightError as error:
             print(f"skipped: {CHROMIUM} does not start: {error}")
             sys.exit(77)
@@ -132,6 +147,7 @@ def main():
         for page in (light, dark):
             check_page(page)
             check_agreements(page)
+            check_links(page, report)
             check_sorting_and_filtering(page)
             check_plots(page)
             assert page.problems == [], page.problems

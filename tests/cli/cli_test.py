@@ -4,6 +4,7 @@
 Usage: cli_test.py BINARY SOURCE_DIR [unittest arguments]. CTest runs each class as one case.
 """
 import json
+import os
 import re
 import signal
 import struct
@@ -44,7 +45,7 @@ class CliTest(unittest.TestCase):
 class Usage(CliTest):
     def test_help_lists_the_commands_and_exits_with_0(self):
         text = self.run_binary("--help").stdout
-        for command in ("mesh", "grid", "complete", "dual", "fit", "improve", "check", "convert", "picture"):
+        for command in ("mesh", "grid", "complete", "dual", "fit", "improve", "check", "convert", "picture", "view"):
             self.assertRegex(text, rf"\n  {command} ")
             page = self.run_binary(command, "--help").stdout
             self.assertIn(f"hexwright {command}", page)
@@ -168,7 +169,7 @@ class Mesh(CliTest):
             self.assertEqual(*outputs)
 
     def test_every_format_reads_back(self):
-        for extension in ("vtu", "vtk", "mesh"):
+        for extension in ("vtu", "vtk", "mesh", "msh", "msh2", "inp"):
             out = self.path / f"a.{extension}"
             self.run_binary("mesh", self.cube, "-o", out, *COARSE)
             self.run_binary("check", out, self.cube)
@@ -280,6 +281,53 @@ class Stages(CliTest):
         self.assertGreaterEqual(after, before)
 
 
+class Names(CliTest):
+    def sets(self, mesh):
+        data = json.loads(self.run_binary("check", mesh, "--json").stdout)
+        return {s["name"]: s for s in data["sets"]}
+
+    def test_groups_of_the_file_become_patches_of_every_format(self):
+        named = self.path / "named.obj"
+        faces = CUBE.splitlines()
+        lines = [l for l in faces if l.startswith("v")]
+        for name, group in (("in let", faces[8:9]), ("rest", faces[9:])):
+            lines += ["g " + name, *group]
+        named.write_text("\n".join(lines))
+        report = self.path / "r.json"
+        done = self.run_binary("mesh", named, "-o", self.path / "a.inp", "--report", report, *COARSE)
+        self.assertIn("'in let' is called 'in_let'", done.stderr)
+        data = json.loads(report.read_text())
+        self.assertIn({"given": "in let", "written": "in_let"}, data["changed_names"])
+        self.assertEqual([s["elements"] for s in data["sets"] if s["name"] == "rest"],
+                         [sum(s["elements"] for s in data["sets"] if s["name"].startswith("rest."))])
+        found = self.sets(self.path / "a.inp")
+        self.assertAlmostEqual(found["in_let"]["area"], 1, places=5)
+        self.assertEqual([round(x) for x in found["in_let"]["normal"]], [-1, 0, 0])
+        self.run_binary("convert", self.path / "a.inp", self.path / "polyMesh")
+        self.assertIn("    in_let\n", (self.path / "polyMesh/boundary").read_text())
+        self.run_binary("convert", self.path / "a.inp", self.path / "b.mesh", "--format", "mfem")
+        self.assertTrue((self.path / "b.mesh").read_text().startswith("MFEM mesh v1.3"))
+
+    def test_rules_name_parts_and_places_name_the_rest(self):
+        out = self.path / "a.msh"
+        self.run_binary("mesh", self.cube, "-o", out, *COARSE, "--patch", "inlet=plane:x<0", "--patch",
+                        "half=plane:z=1&plane:y<0.5")
+        found = self.sets(out)
+        self.assertAlmostEqual(found["inlet"]["area"], 1, places=5)
+        self.assertAlmostEqual(found["half"]["area"], 0.5, places=3)
+        self.assertAlmostEqual(found["patch_zmin"]["area"], 1, places=5)
+        self.assertEqual(found["inlet"]["normal"], [-1, 0, 0])
+        text = self.run_binary("check", out).stdout
+        self.assertRegex(text, r"patch +inlet: \d+ quads, area 1, at \(0 0.5\d* 0.5\d*\), normal \(-1 0 0\)")
+
+    def test_wrong_rules_and_formats_are_bad_usage(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--patch", "inlet=plane:w<0", expect=2)
+        self.assertIn("inlet=plane:x<0.001", done.stderr)
+        self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--format", "nonsense", expect=2)
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE, "--patch", "no=plane:x>5")
+        self.assertIn("no part of the surface", done.stderr)
+
+
 class Check(CliTest):
     HEX = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{}\nHexahedra\n1\n1 2 4 3 5 6 8 7 0\nEnd\n"
     CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -299,6 +347,57 @@ class Check(CliTest):
         done = self.run_binary("check", self.write_hex(mirrored), "--report", self.path / "r.json", expect=1)
         self.assertIn("inverted", done.stdout)
         self.assertFalse(json.loads((self.path / "r.json").read_text())["valid"])
+
+
+class View(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = self.path / "cube.vtu"
+        self.run_binary("mesh", self.cube, "-o", self.mesh, *COARSE, "--quiet")
+
+    def test_it_writes_a_page_that_names_the_mesh(self):
+        page = self.path / "cube.html"
+        self.assertEqual(self.run_binary("view", self.mesh, self.cube, "-o", page, "--no-open").stdout, f"{page}\n")
+        text = page.read_text()
+        self.assertIn("<title>cube.vtu</title>", text)
+        self.assertIn('id="array-surface_tris"', text)
+
+    def test_it_opens_the_page_where_there_is_a_desktop(self):
+        asked = self.path / "asked"
+        opener = self.path / "xdg-open"
+        opener.write_text(f"#!/bin/sh\necho \"$1\" > {asked}.part && mv {asked}.part {asked}\n")
+        opener.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{self.path}:{os.environ['PATH']}", "TMPDIR": str(self.path)}
+        for variable in ("DISPLAY", "WAYLAND_DISPLAY"):
+            environment.pop(variable, None)
+        without = subprocess.run([BINARY, "view", self.mesh], capture_output=True, text=True, env=environment, timeout=60)
+        self.assertRegex(without.stdout, r"/hexwright-\w{6}/cube\.html: open it in a browser\n")
+        self.assertFalse(asked.exists())
+        done = subprocess.run([BINARY, "view", self.mesh], capture_output=True, text=True, env={**environment, "DISPLAY": ":0"}, timeout=60)
+        for _ in range(100):
+            if asked.exists():
+                break
+            time.sleep(0.05)
+        self.assertEqual(asked.read_text(), done.stdout)
+
+    def test_what_cannot_be_shown_is_said(self):
+        self.run_binary("view", self.mesh, "-o", self.path / "a.png", expect=2)
+        self.run_binary("view", self.mesh, "-o", self.mesh, expect=2)
+        self.run_binary("view", self.path / "none.vtu", "-o", self.path / "a.html", expect=3)
+        self.run_binary("check", self.mesh, "--view", self.path / "a.txt", expect=2)
+        self.run_binary("mesh", self.cube, "-o", self.mesh, "--view", self.path / "a.txt", expect=2)
+        grid = self.path / "a.cells"
+        grid.write_text("0 0 0 0\n")
+        self.run_binary("check", grid, "--view", self.path / "a.html", expect=2)
+        self.assertFalse((self.path / "a.html").exists())
+
+    def test_a_mesh_that_fails_is_shown_with_its_failures(self):
+        inverted = self.path / "inverted.mesh"
+        corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, -1), (1, 0, -1), (1, 1, -1), (0, 1, -1)]
+        inverted.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n8\n" + "".join(f"{x} {y} {z} 0\n" for x, y, z in corners)
+                            + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n")
+        self.run_binary("check", inverted, "--view", self.path / "a.html", expect=1)
+        self.assertIn('"valid":false', (self.path / "a.html").read_text())
 
 
 class Baseline(CliTest):

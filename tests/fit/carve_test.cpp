@@ -114,9 +114,8 @@ TEST(Carve, DropsCrumbsAndReportsThinParts) {
     surface.tris.push_back({VertId(base + tri[0].value()), VertId(base + tri[1].value()),
                             VertId(base + tri[2].value())});
   const SurfaceTree tree(surface);
-  CarveOptions options;
-  options.expected = ExpectedTopology{};  // unknown: with it, the plate would be kept
-  const CarveResult result = carve(test::grid_around(tree.box(), 0.11), tree, options, {});
+  const ExpectedTopology unknown;  // with it, the plate would be kept
+  const CarveResult result = carve(test::grid_around(tree.box(), 0.11), tree, unknown, {}, {});
   EXPECT_EQ(result.num_components, 1u);
   ASSERT_FALSE(result.lost.empty());
   for (const Vec3& p : result.lost) EXPECT_GT(p.x, 1.5);

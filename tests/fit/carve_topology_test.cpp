@@ -78,9 +78,8 @@ TEST(CarveTopology, BladesHaveNoHoles) {
   for (int trial = 0; trial < 8; ++trial) {
     const TriMesh blade = test::randomly_rotated(wedge_surface(2, 2, 0.12), rng);
     const HexMesh grid = test::grid_around(bounding_box(blade), 0.1);
-    CarveOptions plain;
-    plain.expected = ExpectedTopology{};  // unknown: nothing to aim for
-    num_pierced += carve(grid, SurfaceTree(blade), plain, {}).euler_characteristic != 2;
+    const ExpectedTopology unknown;  // nothing to aim for
+    num_pierced += carve(grid, SurfaceTree(blade), unknown, {}, {}).euler_characteristic != 2;
     const TopologyReport topology = carved_topology(grid, blade);
     EXPECT_EQ(topology.num_boundary_components, 1u) << "trial " << trial;
     EXPECT_EQ(topology.genus(), 0) << "trial " << trial;
@@ -95,9 +94,8 @@ TEST(CarveTopology, GapsHaveNoBridges) {
   for (int trial = 0; trial < 8; ++trial) {
     const TriMesh clip = test::randomly_rotated(clip_surface(0.09), rng);
     const HexMesh grid = test::grid_around(bounding_box(clip), 0.12);
-    CarveOptions plain;
-    plain.expected = ExpectedTopology{};
-    num_bridged += carve(grid, SurfaceTree(clip), plain, {}).euler_characteristic != 2;
+    const ExpectedTopology unknown;
+    num_bridged += carve(grid, SurfaceTree(clip), unknown, {}, {}).euler_characteristic != 2;
     EXPECT_EQ(carved_topology(grid, clip).genus(), 0) << "trial " << trial;
   }
   EXPECT_GE(num_bridged, 4);

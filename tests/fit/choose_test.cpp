@@ -107,13 +107,13 @@ TEST(SelectivePadding, UnitesRegionsAcrossConcaveCurves) {
 
 TEST(SelectivePadding, ServesTheOutsideToo) {
   const TriMesh cube = turned_cube(0.4);
-  const SurfaceTree tree(cube);
+  const Target target = wrap_target(cube);
   FitOptions options;
   options.carve.side = Side::Outside;
   std::size_t num_hexes[2];
   for (Padding padding : {Padding::Selective, Padding::Everywhere}) {
     options.padding = padding;
-    const FitResult result = fit(test::box_hex_mesh(16, 16, 16), tree, options, {});
+    const FitResult result = fit(test::box_hex_mesh(16, 16, 16), target, options, {});
     EXPECT_EQ(result.report.num_curves_mapped, 12u);
     EXPECT_GT(min_jacobian(result.mesh), 0);
     EXPECT_EQ(result.mesh.labels.corners.size(), 8u);
@@ -176,7 +176,7 @@ TEST(SelectivePadding, WrapsTheFewStepsOfALargeRegion) {
   EXPECT_GT(num_wrapped, 0u);
   EXPECT_LT(num_wrapped, 30u * 16u / 2);
   FitOptions options;
-  const FitResult fitted = fit(test::box_hex_mesh(34, 20, 9), s.tree, options, {});
+  const FitResult fitted = fit(test::box_hex_mesh(34, 20, 9), wrap_target(slab), options, {});
   EXPECT_GT(min_jacobian(fitted.mesh), 0.3);
   for (const HexFace& face : compute_hex_neighbors(fitted.mesh).boundary)
     for (VertId v : face_verts(fitted.mesh, face))

@@ -81,29 +81,30 @@ TEST(Targets, AreLookedForAgainWhereSomethingChanged) {
 }
 
 TEST(Fit, ReachesASphereWithGoodElements) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(5)));
-  const FitResult result = fit(test::grid_around(sphere.box(), 0.12), sphere, {}, {});
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(5)));
+  const FitResult result = fit(test::grid_around(sphere.tree.box(), 0.12), sphere, {}, {});
   const QualitySummary quality = summarize_quality(result.mesh);
   EXPECT_GT(quality.min_scaled_jacobian, 0.5);
   EXPECT_GT(quality.avg_scaled_jacobian, 0.85);
   EXPECT_TRUE(result.report.misses.empty());
   EXPECT_TRUE(result.report.unproven.empty());
   EXPECT_TRUE(check_topology(result.mesh).is_valid());
-  const SurfaceDistance distance = measure_distance(result.mesh, sphere, {});
+  const SurfaceDistance distance = measure_distance(result.mesh, sphere.tree, {});
   EXPECT_LT(distance.max_two_way(), 0.003);  // the sagitta of an edge of 0.12 is 0.0005 diagonals
 }
 
 TEST(Fit, HalvesTheMeanDistanceWithVerticesBesideTheSurface) {
-  const SurfaceTree torus(test::torus_surface(1, 0.4, 120, 60));
-  const HexMesh grid = test::grid_around(torus.box(), 0.16);
+  const Target torus = wrap_target(test::torus_surface(1, 0.4, 120, 60));
+  const HexMesh grid = test::grid_around(torus.tree.box(), 0.16);
   FitOptions options;
-  const SurfaceDistance balanced = measure_distance(fit(grid, torus, options, {}).mesh, torus, {});
+  const SurfaceDistance balanced =
+      measure_distance(fit(grid, torus, options, {}).mesh, torus.tree, {});
   options.patch_verts = PatchVerts::OnSurface;
   const HexMesh on_surface = fit(grid, torus, options, {}).mesh;
   for (const HexFace& face : compute_hex_neighbors(on_surface).boundary)
     for (VertId v : face_verts(on_surface, face))
-      EXPECT_LT(torus.distance(on_surface.positions[v]), 0.02 * 0.16);
-  const SurfaceDistance interpolating = measure_distance(on_surface, torus, {});
+      EXPECT_LT(torus.tree.distance(on_surface.positions[v]), 0.02 * 0.16);
+  const SurfaceDistance interpolating = measure_distance(on_surface, torus.tree, {});
   EXPECT_LT(balanced.mean_two_way(), 0.5 * interpolating.mean_two_way());
   EXPECT_LT(balanced.max_two_way(), interpolating.max_two_way());
 }
@@ -114,9 +115,9 @@ TEST(Fit, NeverInvertsOverRandomRotationsOfShapes) {
   const TriMesh shapes[] = {test::unit_cube_surface(), test::torus_surface(1, 0.35, 40, 20),
                             test::welded(test::unit_sphere_surface(3))};
   for (int trial = 0; trial < 9; ++trial) {
-    const SurfaceTree tree(test::randomly_rotated(shapes[trial % 3], rng));
-    const double h = tree.box().diagonal() / (9 + 4 * (trial / 3));
-    const FitResult result = fit(test::grid_around(tree.box(), h), tree, {}, {});
+    const Target target = wrap_target(test::randomly_rotated(shapes[trial % 3], rng));
+    const double h = target.tree.box().diagonal() / (9 + 4 * (trial / 3));
+    const FitResult result = fit(test::grid_around(target.tree.box(), h), target, {}, {});
     ASSERT_GT(result.mesh.num_hexes(), 0u);
     EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0) << "trial " << trial;
     EXPECT_TRUE(check_topology(result.mesh).is_valid()) << "trial " << trial;
@@ -124,8 +125,8 @@ TEST(Fit, NeverInvertsOverRandomRotationsOfShapes) {
 }
 
 TEST(Fit, IsTheSameForAnyNumberOfThreads) {
-  const SurfaceTree torus(test::torus_surface(1, 0.4, 60, 30));
-  const HexMesh grid = test::grid_around(torus.box(), 0.16);
+  const Target torus = wrap_target(test::torus_surface(1, 0.4, 60, 30));
+  const HexMesh grid = test::grid_around(torus.tree.box(), 0.16);
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return fit(grid, torus, {}, {});
@@ -152,7 +153,7 @@ std::size_t count_box_quads(const HexMesh& mesh, const Box3& box) {
 }
 
 TEST(Fit, TakesAMeshThatAlreadyStandsForTheObject) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(4)));
   HexMesh cube = test::box_hex_mesh(6, 6, 6);
   for (Vec3& p : cube.positions) p = 0.28 * (p - Vec3{3, 3, 3});
   FitOptions options;
@@ -160,11 +161,11 @@ TEST(Fit, TakesAMeshThatAlreadyStandsForTheObject) {
   const FitResult result = fit(cube, sphere, options, {});
   EXPECT_EQ(result.mesh.num_hexes(), 216u + 6 * 36u);  // one layer under its boundary
   EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.3);
-  EXPECT_LT(measure_distance(result.mesh, sphere, {}).max_two_way(), 0.02);
+  EXPECT_LT(measure_distance(result.mesh, sphere.tree, {}).max_two_way(), 0.02);
 }
 
 TEST(Fit, RefusesAMeshInOtherUnits) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(2)));
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(2)));
   FitOptions options;
   options.do_carve = false;
   for (const double scale : {100.0, 0.01}) {
@@ -207,12 +208,12 @@ TEST(Lift, RaisesTheLeastWithoutLeavingTheSurface) {
 TEST(Fit, MeshesTheOutsideInAnUnchangedBox) {
   for (const TriMesh& surface :
        {test::welded(test::unit_sphere_surface(4)), test::unit_cube_surface()}) {
-    const SurfaceTree tree(surface);
-    const HexMesh grid = test::grid_around(tree.box(), tree.box().diagonal() / 14);
+    const Target target = wrap_target(surface);
+    const HexMesh grid = test::grid_around(target.tree.box(), target.tree.box().diagonal() / 14);
     FitOptions options;
     options.carve.side = Side::Outside;
     options.patch_verts = PatchVerts::OnSurface;  // vertices on the surface are easily checked
-    const FitResult result = fit(grid, tree, options, {});
+    const FitResult result = fit(grid, target, options, {});
     EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.19);
     EXPECT_TRUE(check_topology(result.mesh).is_valid());
     const Box3 box = bounding_box(grid);
@@ -224,14 +225,14 @@ TEST(Fit, MeshesTheOutsideInAnUnchangedBox) {
         const Vec3& p = result.mesh.positions[v];
         const Vec3 to_box = min(p - box.lo, box.hi - p);
         const double gap = std::min({to_box.x, to_box.y, to_box.z});
-        EXPECT_LT(std::min(std::abs(gap), tree.distance(p)), 2e-3 * box.diagonal());
+        EXPECT_LT(std::min(std::abs(gap), target.tree.distance(p)), 2e-3 * box.diagonal());
       }
   }
 }
 
 TEST(Fit, MeshesBothSidesWithAConformingInterface) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(4)));
-  const HexMesh grid = test::grid_around(sphere.box(), 0.25);
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(4)));
+  const HexMesh grid = test::grid_around(sphere.tree.box(), 0.25);
   FitOptions options;
   options.carve.side = Side::Both;
   options.patch_verts = PatchVerts::OnSurface;
@@ -251,7 +252,7 @@ TEST(Fit, MeshesBothSidesWithAConformingInterface) {
       const HexId other = neighbors.neighbor[h][static_cast<std::size_t>(lf)];
       if (!other.is_valid() || mesh.region[h] == mesh.region[other]) continue;
       for (VertId v : face_verts(mesh, {h, lf})) {
-        EXPECT_LT(sphere.distance(mesh.positions[v]), 2e-3);
+        EXPECT_LT(sphere.tree.distance(mesh.positions[v]), 2e-3);
         ++interface_verts;
       }
     }
@@ -261,7 +262,7 @@ TEST(Fit, MeshesBothSidesWithAConformingInterface) {
 TEST(Fit, NamesTheInvertedHexOfABadBackground) {
   HexMesh grid = test::box_hex_mesh(3, 3, 3);
   std::swap(grid.hexes[HexId(5)][0], grid.hexes[HexId(5)][1]);
-  const SurfaceTree cube(test::unit_cube_surface());
+  const Target cube = wrap_target(test::unit_cube_surface());
   try {
     fit(grid, cube, {}, {});
     FAIL() << "accepted an inverted hex";
@@ -272,18 +273,58 @@ TEST(Fit, NamesTheInvertedHexOfABadBackground) {
 }
 
 TEST(Fit, ReturnsAnEmptyMeshWhenNothingIsKept) {
-  const SurfaceTree cube(test::unit_cube_surface());
+  const Target cube = wrap_target(test::unit_cube_surface());
   HexMesh far = test::box_hex_mesh(2, 2, 2);
   for (Vec3& p : far.positions) p += {10, 0, 0};
   EXPECT_EQ(fit(far, cube, {}, {}).mesh.num_hexes(), 0u);
 }
 
+// The one-shot takes any units and reports in them.
+TEST(Fit, WorksInAnyUnitsAndPlaces) {
+  const double scale = 1024;
+  const Vec3 shift = {4096, 0, -8192};
+  TriMesh cube = test::unit_cube_surface();
+  HexMesh grid = test::grid_around(bounding_box(cube), 0.15);
+  const FitResult plain = fit(grid, cube, {}, {}, {});
+  for (Vec3& p : cube.positions) p = p * scale + shift;
+  for (Vec3& p : grid.positions) p = p * scale + shift;
+  const FitResult far = fit(grid, cube, {}, {}, {});
+  ASSERT_EQ(far.mesh.hexes, plain.mesh.hexes);
+  for (VertId v : far.mesh.positions.ids())
+    EXPECT_LT(distance(far.mesh.positions[v], plain.mesh.positions[v] * scale + shift), 1e-6);
+  EXPECT_NEAR(far.report.curve_length, 12 * scale, 1e-6);
+  EXPECT_NEAR(far.report.curve_length_mapped, plain.report.curve_length_mapped * scale, 1e-6);
+  ASSERT_EQ(far.report.curves.size(), plain.report.curves.size());
+  for (std::size_t i = 0; i < far.report.curves.size(); ++i)
+    EXPECT_NEAR(far.report.curves[i].max_residual, plain.report.curves[i].max_residual * scale,
+                1e-6);
+}
+
+TEST(Fit, MapsEveryPlaceAndLengthOfItsReport) {
+  Similarity frame;
+  frame.center = {10, 20, 30};
+  frame.exponent = 3;
+  FitReport report;
+  report.curve_length = report.curve_length_mapped = 2;
+  report.curves = {{CurveId(0), true, 0.5, {}}};
+  report.misses = {{{1, 1, 1}, 0.25}};
+  report.carve.lost = report.carve.thin = {{1, 0, 0}};
+  report.to_world(frame);
+  EXPECT_EQ(report.curve_length, 16);
+  EXPECT_EQ(report.curve_length_mapped, 16);
+  EXPECT_EQ(report.curves[0].max_residual, 4);
+  EXPECT_EQ(report.misses[0].position, (Vec3{18, 28, 38}));
+  EXPECT_EQ(report.misses[0].distance, 2);
+  EXPECT_EQ(report.carve.lost[0], (Vec3{18, 20, 30}));
+  EXPECT_EQ(report.carve.thin[0], (Vec3{18, 20, 30}));
+}
+
 TEST(Fit, StopsWhenCancelled) {
-  const SurfaceTree sphere(test::welded(test::unit_sphere_surface(3)));
+  const Target sphere = wrap_target(test::welded(test::unit_sphere_surface(3)));
   std::atomic<bool> cancel{true};
   Context context;
   context.cancel = &cancel;
-  EXPECT_THROW(fit(test::grid_around(sphere.box(), 0.3), sphere, {}, context), Error);
+  EXPECT_THROW(fit(test::grid_around(sphere.tree.box(), 0.3), sphere, {}, context), Error);
 }
 
 }  // namespace

@@ -163,14 +163,13 @@ TEST(Features, AreTheSameWithCreasesFoundBefore) {
   const SurfaceTree tree(prism(40, 2));
   FeatureOptions options;
   const FeatureGraph expected = extract_features(tree, options);
-  options.creases = find_creases(tree, options.crease_angle);
-  std::reverse(options.creases->begin(), options.creases->end());
-  const FeatureGraph features = extract_features(tree, options);
+  auto creases = find_creases(tree, options.crease_angle);
+  std::reverse(creases.begin(), creases.end());
+  const FeatureGraph features = extract_features(tree, options, creases);
   ASSERT_EQ(features.curves.size(), expected.curves.size());
   for (CurveId c : features.curves.ids())
     EXPECT_EQ(features.curves[c].verts, expected.curves[c].verts);
-  options.creases->clear();
-  EXPECT_TRUE(extract_features(tree, options).empty());
+  EXPECT_TRUE(extract_features(tree, options, {}).empty());
 }
 
 TEST(Features, AnEdgeOutOfRangeIsRefused) {

@@ -19,7 +19,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 WorkingSurface working(const TriMesh& mesh) {
-  WorkingSurface w{mesh, {}};
+  WorkingSurface w{mesh, {}, {}};
   for (TriId t : mesh.tris.ids()) w.source.push_back(t);
   return w;
 }

@@ -28,6 +28,19 @@ inline HexMesh labelled_box() {
   return mesh;
 }
 
+/// The same box near the origin, every quad in a patch, with names that formats spell differently
+/// or cannot hold: two patches that differ by case alone, blanks, letters beyond ASCII, two patches
+/// of one group, and things without a name.
+inline HexMesh named_box() {
+  HexMesh mesh = labelled_box();
+  for (VertId v : mesh.positions.ids()) mesh.positions[v] -= Vec3{0, 0, 1e5};
+  mesh.labels.quads.back().patch = PatchId(5);
+  mesh.labels.patch_names = {"inlet", "Inlet", "outer wall", "wall.1", "wall.2", ""};
+  mesh.labels.curve_names = {"rim", "1st edge", ""};
+  mesh.region_names = {"steel", "", "cuivre \xc3\xa9tam\xc3\xa9"};
+  return mesh;
+}
+
 /// A grid over the given roots, split at random `depth` times.
 inline Grid random_grid(const GridFrame& frame, std::vector<LatticeCoord> roots, int depth,
                         unsigned seed) {

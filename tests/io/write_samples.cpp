@@ -12,8 +12,39 @@
 
 #include "io/sample_meshes.h"
 
+namespace {
+
+using namespace hexwright;
+
+nlohmann::json points_of(const HexMesh& mesh, const std::vector<VertId>& verts) {
+  nlohmann::json points;
+  for (VertId v : verts) {
+    const Vec3& p = mesh.positions[v];
+    points.push_back({p.x, p.y, p.z});
+  }
+  return points;
+}
+
+/// Every set with its number of elements and the places of its nodes.
+nlohmann::json describe_sets(const HexMesh& mesh) {
+  const SetTable table = make_set_table(mesh);
+  nlohmann::json described;
+  const auto add = [&](const char* kind, const std::vector<NamedSet>& sets) {
+    for (const NamedSet& set : sets)
+      described[kind][set.name] = {{"elements", set.members.size()},
+                                   {"points", points_of(mesh, set_nodes(mesh, set))}};
+  };
+  add("regions", table.regions);
+  add("patches", table.patches);
+  add("groups", table.patch_groups);
+  add("curves", table.curves);
+  add("corners", table.corners);
+  return described;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace hexwright;
   if (argc != 2) return 2;
   const std::filesystem::path folder = argv[1];
   try {
@@ -26,12 +57,23 @@ int main(int argc, char** argv) {
     options.write_sets = true;
     write_hex_mesh(folder / "sets.vtu", mesh, options);
     write_hex_mesh(folder / "sets.vtk", mesh, options);
+    const HexMesh named = test::named_box();
+    options.fields.clear();
+    nlohmann::json written_names;
+    for (const std::string& format : hex_mesh_formats()) {
+      options.format = format;
+      const auto path = folder / ("named." + format);
+      for (const ChangedName& name : write_hex_mesh(path, named, options).changed_names)
+        written_names[format][name.given] = name.written;
+    }
 
     const Grid grid = test::random_grid({{1, 2, 3}, 0.5}, test::kRingRoots, 3, 7);
     write_grid(folder / "grid.htg", grid);
     write_grid(folder / "grid.vtu", grid);
 
     nlohmann::json samples;
+    samples["written_names"] = written_names;
+    samples["named"] = describe_sets(named);
     samples["hexes"] = mesh.num_hexes();
     samples["verts"] = mesh.num_verts();
     samples["quads"] = mesh.labels.quads.size();

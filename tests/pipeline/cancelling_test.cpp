@@ -52,22 +52,24 @@ void expect_cancelled(const std::map<std::string, Work>& works) {
 
 TEST(Cancelling, EndsEveryStage) {
   const TriMesh surface = test::unit_sphere_surface(4);
-  const SurfaceTree tree(surface);
+  const Target target = wrap_target(surface);
   const HexMesh hexes = test::box_hex_mesh(16, 16, 16);
   const Grid grid = test::random_grid({{0, 0, 0}, 1}, {{0, 0, 0}}, 5, 3);
   const Grid completed = complete(grid, {}, {}).grid;
   expect_cancelled({
       {"mesh", [&](const Context& c) { mesh_surface(surface, {}, c); }},
       {"prepare", [&](const Context& c) { prepare_surface(surface, c); }},
+      {"target", [&](const Context& c) { make_target(surface, {}, c); }},
+      {"grid", [&](const Context& c) { build_grid(target, {}, c); }},
       {"shape diameter", [&](const Context& c) { compute_shape_diameter(surface, {}, c); }},
       {"opposite walls", [&](const Context& c) { sample_opposite_walls(surface, 0.1, c); }},
       {"complete", [&](const Context& c) { complete(grid, {}, c); }},
       {"dual", [&](const Context& c) { build_dual(completed, {}, c); }},
       {"count hexes", [&](const Context& c) { count_dual_hexes(completed, {}, c); }},
-      {"carve", [&](const Context& c) { carve(hexes, tree, {}, c); }},
-      {"fit", [&](const Context& c) { fit(hexes, tree, {}, c); }},
+      {"carve", [&](const Context& c) { carve(hexes, target.tree, {}, c); }},
+      {"fit", [&](const Context& c) { fit(hexes, target, {}, c); }},
       {"judge", [&](const Context& c) { judge(hexes, {}, c); }},
-      {"judge with surface", [&](const Context& c) { judge(hexes, tree, {}, c); }},
+      {"judge with surface", [&](const Context& c) { judge(hexes, target, {}, c); }},
       {"improve",
        [&](const Context& c) {
          HexMesh mesh = hexes;

@@ -15,7 +15,7 @@ class GateTest : public testing::Test {
   GateTest() {
     context_.on_warning = [this](std::string_view text) { warnings_.emplace_back(text); };
     options_.sizing.tolerance = 0.01;
-    expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
+    target_.expected = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
     good_.mesh = test::box_hex_mesh(1, 1, 1);
     good_.verdict.topology.num_boundary_components = 1;
     good_.verdict.topology.boundary_euler_characteristic = 2;
@@ -24,7 +24,7 @@ class GateTest : public testing::Test {
     good_.verdict.features.emplace();
   }
 
-  RoundInput input() const { return {tree_, options_, expected_, context_}; }
+  RoundInput input() const { return {target_, options_, plan_, context_}; }
 
   /// Runs the gate; failures are returned, warnings left in warnings_.
   std::vector<std::string> failures_of(MeshResult result) {
@@ -48,9 +48,9 @@ class GateTest : public testing::Test {
     return round;
   }
 
-  SurfaceTree tree_{test::unit_cube_surface()};
+  Target target_ = wrap_target(test::unit_cube_surface());
   MeshOptions options_;
-  ExpectedTopology expected_;
+  StagePlan plan_;
   Context context_;
   std::vector<std::string> warnings_;
   MeshResult good_;
@@ -98,23 +98,23 @@ TEST_F(GateTest, DistanceIsNoGateWithoutADeviationSizingOrOutside) {
 }
 
 TEST_F(GateTest, LostPartsFailWithTheRemedy) {
-  expected_.num_components = 3;
+  target_.expected.num_components = 3;
   const auto failures = failures_of(good_);
   ASSERT_EQ(failures.size(), 1u);
   EXPECT_NE(failures[0].find("1 components, the surface 3"), std::string::npos) << failures[0];
   EXPECT_NE(failures[0].find("deeper levels"), std::string::npos) << failures[0];
   EXPECT_FALSE(is_content(input(), round_of(good_)));
   // Nothing can be said where the surface does not tell, or around the object.
-  expected_.is_known = false;
+  target_.expected.is_known = false;
   EXPECT_TRUE(failures_of(good_).empty());
-  expected_.is_known = true;
+  target_.expected.is_known = true;
   options_.fit.carve.side = Side::Both;
   EXPECT_TRUE(failures_of(good_).empty());
 }
 
 // A wrong genus makes the loop go on, but alone it is the judge's warning and no failure.
 TEST_F(GateTest, AWrongGenusKeepsTheLoopGoing) {
-  expected_.euler_characteristic = 0;
+  target_.expected.euler_characteristic = 0;
   EXPECT_TRUE(failures_of(good_).empty());
   EXPECT_FALSE(is_content(input(), round_of(good_)));
   EXPECT_TRUE(is_within_gate(input(), round_of(good_)));
@@ -152,7 +152,7 @@ TEST_F(GateTest, AnEmptyMeshHasTheJudgesReasonAlone) {
   MeshResult empty = at_distance(1);
   empty.mesh = {};
   empty.verdict.failures = {"nothing of the object was kept"};
-  expected_.num_components = 9;
+  target_.expected.num_components = 9;
   EXPECT_EQ(failures_of(empty), empty.verdict.failures);
   EXPECT_TRUE(warnings_.empty());
 }

@@ -70,7 +70,7 @@ TEST(OptionTable, SetsWhatItNames) {
   EXPECT_EQ(options.loop_extra_levels, 0);
   EXPECT_DOUBLE_EQ(options.sizing.tolerance, 0.002);
   EXPECT_EQ(options.fit.carve.side, Side::Both);
-  EXPECT_DOUBLE_EQ(options.fit.features.crease_angle, std::numbers::pi / 6);
+  EXPECT_DOUBLE_EQ(options.target.features.crease_angle, std::numbers::pi / 6);
   EXPECT_EQ(options.max_rounds, 0);
   EXPECT_EQ(find_option(table, "no-such-option"), nullptr);
 }

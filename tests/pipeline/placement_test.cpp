@@ -45,7 +45,7 @@ TEST_P(TurnedBox, IsMeshedAsTheStraightOne) {
   EXPECT_NEAR(result.verdict.quality.min_scaled_jacobian,
               expected.verdict.quality.min_scaled_jacobian, 1e-3);
   // Measured where the user's surface is, by its own diagonal.
-  const Verdict verdict = judge(result.mesh, SurfaceTree(box), {}, {});
+  const Verdict verdict = judge(result.mesh, box, {}, {}, {});
   EXPECT_LT(verdict.distance->max_two_way(), 1e-6);
   EXPECT_EQ(verdict.features->num_corners_recovered, 8u);
   EXPECT_NEAR(verdict.quality.total_volume, 24, 1e-6);
@@ -56,10 +56,10 @@ TEST(Placement, AsGivenLeavesTheLatticeAlongTheAxes) {
   TriMesh box = box_surface();
   for (Vec3& p : box.positions) p = turned(p, 30);
   MeshOptions options;
-  options.placement = Placement::AsGiven;
+  options.target.placement = Placement::AsGiven;
   options.max_rounds = 0;
   const std::size_t num_given = mesh_surface(box, options, {}).mesh.num_hexes();
-  options.placement = Placement::Faces;
+  options.target.placement = Placement::Faces;
   EXPECT_LT(mesh_surface(box, options, {}).mesh.num_hexes(), num_given);
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 class RoundTest : public testing::Test {
  protected:
+  /// Nothing is expected of the topology, unless a test says so.
+  RoundTest() { target_.expected = {}; }
   /// A round as the loop sees it. Distances in tolerances.
   Round round(double distance, double quality, int num_hexes = 10) const {
     Round r;
@@ -22,14 +24,14 @@ class RoundTest : public testing::Test {
   }
   /// Better, and the other one is not better as well.
   void expect_better(const Round& a, const Round& b) const {
-    const RoundInput input{tree_, options_, expected_, context_};
+    const RoundInput input{target_, options_, plan_, context_};
     EXPECT_TRUE(is_better(input, a, b));
     EXPECT_FALSE(is_better(input, b, a));
   }
 
-  SurfaceTree tree_{test::unit_cube_surface()};
+  Target target_ = wrap_target(test::unit_cube_surface());
   MeshOptions options_;
-  ExpectedTopology expected_;
+  StagePlan plan_;
   Context context_;
 };
 
@@ -77,7 +79,7 @@ TEST_F(RoundTest, WithinTheToleranceTheMeanComesLast) {
 }
 
 TEST_F(RoundTest, AMeanAboveItsShareIsScaledAway) {
-  const RoundInput input{tree_, options_, expected_, context_};
+  const RoundInput input{target_, options_, plan_, context_};
   Round r = round(0.5, 0.3);
   EXPECT_TRUE(is_content(input, r));
   EXPECT_FALSE(scale_for_mean(input, r));
@@ -93,7 +95,7 @@ TEST_F(RoundTest, AMeanAboveItsShareIsScaledAway) {
 }
 
 TEST_F(RoundTest, ScalingWaitsForWhatItDoesNotMend) {
-  const RoundInput input{tree_, options_, expected_, context_};
+  const RoundInput input{target_, options_, plan_, context_};
   Round slightly = round(1.2, 0.3), far = round(2, 0.3), poor = round(0.5, 0.1);
   for (Round* r : {&slightly, &far, &poor})
     r->verdict.distance->mean_to_mesh = 1.5 * mean_goal(options_);
@@ -107,7 +109,7 @@ TEST_F(RoundTest, ScalingWaitsForWhatItDoesNotMend) {
 }
 
 TEST_F(RoundTest, WithinTheGateTopologyGoesBeforeDistance) {
-  expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
+  target_.expected = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
   Round sphere = round(1.9, 0.1), torus = round(0.1, 0.9);
   for (Round* r : {&sphere, &torus}) r->verdict.topology.num_boundary_components = 1;
   sphere.verdict.topology.boundary_euler_characteristic = 2;
@@ -117,7 +119,8 @@ TEST_F(RoundTest, WithinTheGateTopologyGoesBeforeDistance) {
 }
 
 TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
-  const RoundInput input{tree_, options_, expected_, context_};
+  plan_.budgets.growth = 2.5;
+  const RoundInput input{target_, options_, plan_, context_};
   Round near = round(1.5, 0.3), far = round(2.5, 0.3);
   for (Round* r : {&near, &far}) r->grid.cells.resize(100);
   EXPECT_FALSE(is_out_of_proportion(input, near, 250));
@@ -126,8 +129,8 @@ TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
 }
 
 TEST_F(RoundTest, ThinPlacesAreRefinedOnlyForTopologyAndWhenNothingElseIs) {
-  expected_ = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
-  const RoundInput input{tree_, options_, expected_, context_};
+  target_.expected = {.is_known = true, .num_components = 1, .euler_characteristic = 2};
+  const RoundInput input{target_, options_, plan_, context_};
   Round torus = round(0.5, 0.5);
   torus.grid = make_grid({{0, 0, 0}, 2}, {{0, 0, 0}, {1, 0, 0}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
   torus.verdict.topology.num_boundary_components = 1;
@@ -143,13 +146,13 @@ TEST_F(RoundTest, ThinPlacesAreRefinedOnlyForTopologyAndWhenNothingElseIs) {
   EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 0}));
   torus.verdict.distance->hot = {{1, 1, 1}};
   EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{1, 0}));
-  expected_.is_known = false;
+  target_.expected.is_known = false;
   torus.verdict.distance->hot.clear();
   EXPECT_EQ(mark_misses(input, torus), (std::vector<char>{0, 1}));
 }
 
 TEST_F(RoundTest, RefinesWhereTheBoundaryTouchesItself) {
-  const RoundInput input{tree_, options_, expected_, context_};
+  const RoundInput input{target_, options_, plan_, context_};
   Round r = round(0.5, 0.5);
   r.grid = make_grid({{0, 0, 0}, 2}, {{0, 0, 0}, {1, 0, 0}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
   r.fit.mesh.positions = IdVector<VertId, Vec3>({{1, 1, 1}, {3, 1, 1}});

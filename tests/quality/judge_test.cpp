@@ -20,7 +20,7 @@ HexMesh cube_mesh(int n) {
 const double kDiagonal = std::sqrt(3.0);
 
 Verdict judge_cube(const HexMesh& mesh, const JudgeOptions& options = {}) {
-  return judge(mesh, SurfaceTree(test::unit_cube_surface()), options, {});
+  return judge(mesh, wrap_target(test::unit_cube_surface()), options, {});
 }
 
 TEST(Judge, ACubeIsPerfect) {
@@ -155,11 +155,39 @@ HexMesh outside_mesh() {
 TEST(Judge, LabeledQuadsAloneStandForTheSurfaceWhenAsked) {
   JudgeOptions options;
   EXPECT_GT(judge_cube(outside_mesh(), options).distance->max_to_surface, 0.5);
-  options.distance.quads = JudgedQuads::Labeled;
+  options.quads = JudgedQuads::Labeled;
   const Verdict verdict = judge_cube(outside_mesh(), options);
   EXPECT_LT(verdict.distance->max_two_way(), 1e-14);
   EXPECT_NEAR(verdict.features->length_share, 1, 1e-12);
   EXPECT_TRUE(verdict.warnings.empty());
+}
+
+/// A mesh far away and in small units is judged as it would be about the origin, and told so.
+TEST(Judge, SaysPlacesAndLengthsInTheSurfacesUnits) {
+  const double scale = 1.0 / 1024;
+  const Vec3 shift = {64, -32, 8};
+  const auto in_world = [&](const Vec3& p) { return p * scale + shift; };
+  HexMesh mesh = cube_mesh(4);
+  for (Vec3& p : mesh.positions)
+    if (p.x == 0 && p.y == 0) p.x = p.y = 0.005 * kDiagonal;
+  const Verdict plain = judge(mesh, test::unit_cube_surface(), {}, {}, {});
+  TriMesh surface = test::unit_cube_surface();
+  for (Vec3& p : surface.positions) p = in_world(p);
+  for (Vec3& p : mesh.positions) p = in_world(p);
+  const Verdict far = judge(mesh, surface, {}, {}, {});
+  EXPECT_NEAR(far.distance->max_two_way(), plain.distance->max_two_way(), 1e-9);
+  EXPECT_LT(distance(far.distance->worst_on_surface, in_world(plain.distance->worst_on_surface)),
+            1e-9);
+  EXPECT_NEAR(far.quality.total_volume / (scale * scale * scale), plain.quality.total_volume, 1e-9);
+  EXPECT_NEAR(far.features->total_length, 12 * scale, 1e-12);
+  EXPECT_NEAR(far.features->curves[CurveId(0)].length, scale, 1e-12);
+  ASSERT_EQ(far.features->missed.size(), plain.features->missed.size());
+  ASSERT_FALSE(plain.features->missed.empty());
+  for (std::size_t i = 0; i < plain.features->missed.size(); ++i) {
+    const MissedFeature &there = far.features->missed[i], &here = plain.features->missed[i];
+    EXPECT_LT(distance(there.position, in_world(here.position)), 1e-9);
+    EXPECT_NEAR(there.distance, here.distance * scale, 1e-9);
+  }
 }
 
 TEST(VerdictJson, HoldsTheNumbers) {
@@ -196,7 +224,7 @@ TEST(VerdictText, FiguresArePartOfTheReportWithoutItsJudgement) {
   HexMesh mesh = test::box_hex_mesh(3, 2, 2);
   for (bool is_valid : {true, false}) {
     if (!is_valid) std::swap(mesh.hexes[HexId(3)][0], mesh.hexes[HexId(3)][6]);
-    const Verdict verdict = judge(mesh, SurfaceTree(test::unit_cube_surface()), {}, {});
+    const Verdict verdict = judge(mesh, wrap_target(test::unit_cube_surface()), {}, {});
     const std::string figures = figures_to_text(verdict);
     EXPECT_NE(verdict_to_text(verdict).find(figures), std::string::npos);
     EXPECT_EQ(figures.find("VALID"), std::string::npos);

@@ -31,7 +31,9 @@ TEST(RaiseAverage, KeepsTheLeastTheSurfaceAndTheProofs) {
   FitState state = fitted_torus(torus);
   const QualitySummary before = summarize_quality(state.mesh);
   const std::size_t unproven = find_unproven(state.mesh).size();
-  for (int round = 0; round < 3; ++round) raise_average(state, {torus, nullptr}, {}, {});
+  AverageOptions options;
+  options.floor = before.min_scaled_jacobian;
+  for (int round = 0; round < 3; ++round) raise_average(state, {torus, nullptr}, options, {});
   const QualitySummary after = summarize_quality(state.mesh);
   EXPECT_GT(after.avg_scaled_jacobian, before.avg_scaled_jacobian + 0.01);
   EXPECT_GE(after.min_scaled_jacobian, before.min_scaled_jacobian - 1e-8);

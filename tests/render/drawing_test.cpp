@@ -1,5 +1,6 @@
 // Camera, colours, letters, the legend, what a cut leaves, and images read back.
 #include <algorithm>
+#include <bit>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -13,6 +14,7 @@
 #include "io/temp_folder.h"
 #include "render/camera.h"
 #include "render/color.h"
+#include "render/creases.h"
 #include "render/font.h"
 #include "render/legend.h"
 #include "render/visible_faces.h"
@@ -151,36 +153,55 @@ std::set<std::pair<int, int>> dark_pixels(const Image& image) {
   return dark;
 }
 
-TEST(Font, EveryDocumentedCharacterHasAShapeOfItsOwn) {
-  const std::string letters =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.,-+%/:()";
-  std::map<std::set<std::pair<int, int>>, char> seen;
-  for (char letter : letters) {
-    Image image = white_image(12, 12);
-    draw_text(image, 2, 2, std::string(1, letter), 1);
+TEST(Font, EveryCharacterHasAShapeOfItsOwnOnItsLine) {
+  std::map<std::set<std::pair<int, int>>, int> seen;
+  for (int letter = 0x21; letter < 0x7f; ++letter) {
+    Image image = white_image(60, 60);
+    draw_text(image, 10, 8, std::string(1, static_cast<char>(letter)), 32);
     const auto pixels = dark_pixels(image);
     EXPECT_FALSE(pixels.empty()) << letter;
     EXPECT_TRUE(seen.emplace(pixels, letter).second) << letter << " looks like " << seen[pixels];
-    for (const auto& [x, y] : pixels) EXPECT_TRUE(x >= 2 && x < 7 && y >= 2 && y < 9) << letter;
+    for (const auto& [x, y] : pixels)
+      EXPECT_TRUE(x >= 8 && x < 46 && y >= 8 && y < 8 + line_height(32)) << letter;
   }
   Image blank = white_image(12, 12);
-  draw_text(blank, 2, 2, " \t\x01", 1);
+  draw_text(blank, 2, 2, " \t\x01", 10);
   EXPECT_TRUE(dark_pixels(blank).empty());
 }
 
-TEST(Font, ScalesToSquaresAndClipsAtEveryBorder) {
-  Image one = white_image(60, 20), three = white_image(180, 60);
-  draw_text(one, 3, 4, "Qa7)", 1);
-  draw_text(three, 9, 12, "Qa7)", 3);
-  std::set<std::pair<int, int>> expected;
-  for (const auto& [x, y] : dark_pixels(one))
-    for (int k = 0; k < 9; ++k) expected.insert({3 * x + k % 3, 3 * y + k / 3});
-  EXPECT_EQ(dark_pixels(three), expected);
-  EXPECT_EQ(text_width("Qa7)", 3), 3 * text_width("Qa7)", 1));
-  // A window over the large text: what is outside vanishes, what is inside stays.
+double ink(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) sum += (255 - image.rgb[i]) / 215.0;
+  return sum;
+}
+
+// The ink of a letter is its outline's area, wherever it falls between pixels and at any size.
+TEST(Font, InkIsTheAreaOfTheOutline) {
+  Image large = white_image(800, 900);
+  draw_text(large, 20, 20, "g", 600);
+  const double area = ink(large) / (600.0 * 600.0);
+  for (double size : {9.0, 13.7, 40.0})
+    for (double shift : {0.0, 0.31, 0.77}) {
+      Image image = white_image(100, 100);
+      draw_text(image, 20 + shift, 20, "g", size);
+      EXPECT_NEAR(ink(image) / (size * size), area, 0.03 * area) << size << " " << shift;
+    }
+  // A vertical bar's counters and holes stay empty: an O has a hole.
+  Image hole = white_image(200, 200);
+  draw_text(hole, 20, 20, "O", 120);
+  const int middle = 20 + static_cast<int>(text_width("O", 120) / 2);
+  EXPECT_EQ(hole.rgb[std::size_t(3 * (90 * 200 + middle))], 255);
+}
+
+TEST(Font, IsClippedAtEveryBorder) {
+  Image whole = white_image(180, 60);
+  draw_text(whole, 9, 12, "Qa7)", 30);
+  const auto expected = dark_pixels(whole);
+  EXPECT_NEAR(text_width("Qa7)", 30), 3 * text_width("Qa7)", 10), 1e-9);
+  // A window over the text: what is outside vanishes, what is inside stays.
   for (const auto& [dx, dy] : {std::pair{-20, -10}, {-200, 0}, {170, 50}, {-5, 30}}) {
     Image clipped = white_image(180, 60);
-    draw_text(clipped, 9 + dx, 12 + dy, "Qa7)", 3);
+    draw_text(clipped, 9 + dx, 12 + dy, "Qa7)", 30);
     std::set<std::pair<int, int>> window;
     for (const auto& [x, y] : expected)
       if (x + dx >= 0 && x + dx < 180 && y + dy >= 0 && y + dy < 60)
@@ -189,11 +210,28 @@ TEST(Font, ScalesToSquaresAndClipsAtEveryBorder) {
   }
 }
 
+TEST(Font, NamesAreUtf8AndShortenedByWholeCharacters) {
+  EXPECT_GT(text_width("\xc3\xa4", 20), 5);                        // a with two dots
+  EXPECT_EQ(text_width("\xe4\xb8\xad", 20), text_width("?", 20));  // no glyph
+  EXPECT_EQ(shorten_text("inlet", 20, 500), "inlet");
+  const std::string name =
+      "K\xc3\xbchlmantel au\xc3\x9f"
+      "en";
+  for (double width = 0; width < text_width(name, 20); width += 3) {
+    const std::string shorter = shorten_text(name, 20, width);
+    EXPECT_TRUE(shorter.ends_with("\xe2\x80\xa6"));
+    EXPECT_LE(text_width(shorter, 20), std::max(width, text_width("\xe2\x80\xa6", 20)));
+    const std::string kept = shorter.substr(0, shorter.size() - 3);
+    EXPECT_TRUE(name.starts_with(kept));
+    EXPECT_TRUE(kept.empty() || static_cast<unsigned char>(kept.back()) != 0xc3) << "half a letter";
+  }
+}
+
 TEST(Legend, StaysInItsStripAndFollowsTheValues) {
   Image low = white_image(600, 450), high = low;
-  draw_legend(low, "x", std::vector<double>(100, 0.05));
-  draw_legend(high, "x", std::vector<double>(100, 0.95));
-  const int strip = 600 - legend_width(low);
+  draw_legend(low, "x", std::vector<double>(100, 0.05), 8);
+  draw_legend(high, "x", std::vector<double>(100, 0.95), 8);
+  const int strip = 600 - legend_width(8);
   int sum_low = 0, num_low = 0, sum_high = 0, num_high = 0;
   for (int y = 0; y < 450; ++y)
     for (int x = 0; x < 600; ++x) {
@@ -216,10 +254,10 @@ TEST(Legend, StaysInItsStripAndFollowsTheValues) {
 TEST(Legend, BarsAreAsLongAsTheirShare) {
   const auto bar_length = [](const std::vector<double>& values, double value) {
     Image image = white_image(600, 450), empty = image;
-    draw_legend(image, "", values);
-    draw_legend(empty, "", {});
+    draw_legend(image, "", values, 8);
+    draw_legend(empty, "", {}, 8);
     // The row of the value: the scale runs from three quarters of the height upwards.
-    const int top = 450 / 8 + 2 * text_height(1), bottom = 450 * 3 / 4;
+    const int top = 450 / 8 + int(std::lround(2.2 * 8)), bottom = 450 * 3 / 4;
     const int y = bottom - int(std::lround(value * (bottom - top)));
     int length = 0;
     for (int x = 0; x < 600; ++x) {
@@ -245,9 +283,11 @@ TEST(Legend, FitsOrIsClippedInImagesOfAnySize) {
   for (int width : {16, 17, 100, 5000})
     for (int height : {16, 31, 200}) {
       Image image = white_image(width, height);
-      draw_legend(image, "scaled Jacobian", {0.1, 0.5, std::nan("")});
+      draw_legend(image, "scaled Jacobian", {0.1, 0.5, std::nan("")}, std::max(8.0, width / 80.0));
       EXPECT_EQ(image.rgb.size(), std::size_t(3 * width * height));
-      EXPECT_FALSE(dark_pixels(image).empty());
+      if (width >= 100) {
+        EXPECT_GT(ink(image), 0);
+      }
     }
 }
 
@@ -298,6 +338,77 @@ TEST(VisibleFaces, CloseTheKeptPartAndAgreeWithBruteForce) {
     }
     EXPECT_NEAR(norm(sum), 0, 1e-12);
   }
+}
+
+// A slab of one hex that a plane shaves off the top of a block hangs in the air; what is thicker,
+// or a whole part of the mesh, stays.
+TEST(VisibleFaces, CrumbsThatACutLeavesAreRemoved) {
+  HexMesh mesh = test::box_hex_mesh(8, 8, 4);
+  // A part of its own beside it, as thin as a crumb.
+  const auto add_block = [&](double x, double y, int ny) {
+    const HexMesh block = test::box_hex_mesh(2, ny, 2);
+    const auto first = mesh.num_verts();
+    for (const Vec3& p : block.positions) mesh.positions.push_back(p + Vec3{x, y, 1});
+    for (auto hex : block.hexes) {
+      for (VertId& v : hex) v = VertId(first + v.index());
+      mesh.hexes.push_back(hex);
+    }
+  };
+  add_block(20, 7, 1);
+  const auto count = [&](double y) {
+    // Keeps y above the plane: 0 to 8 is the extent.
+    const PictureOptions::Cut cut{{0, -1, 0}, 1 - (y + 0.003) / 8 - 0.003};
+    std::set<HexId> hexes;
+    for (const VisibleFace& f : find_visible_faces(mesh, cut)) hexes.insert(f.face.hex);
+    return hexes.size();
+  };
+  EXPECT_EQ(count(7.0), 8U * 4 + 4);  // one layer is all there is: kept
+  // Bend a ridge of the block's top so that a plane across z leaves it alone in the air.
+  HexMesh ridge = test::box_hex_mesh(30, 5, 4);
+  for (VertId v : ridge.positions.ids()) {
+    Vec3& p = ridge.positions[v];
+    if (p.z == 4 && p.x >= 20 && p.x <= 21) p.z = 8;  // a spike, one hex wide
+    if (p.x > 10) continue;
+    p.z += 10;  // and a plateau
+  }
+  const PictureOptions::Cut above{{0, 0, -1}, 1 - 5.0 / 14};
+  for (const VisibleFace& f : find_visible_faces(ridge, above))
+    EXPECT_LT(ridge.corners(f.face.hex)[0].x, 12);
+}
+
+TEST(Creases, RunWhereBoundaryFacesMeetAtAnAngleAndRoundCuts) {
+  const HexMesh mesh = test::box_hex_mesh(3, 3, 3);
+  auto faces = find_visible_faces(mesh, {});
+  mark_creases(mesh, faces);
+  int sides = 0;
+  for (const VisibleFace& f : faces) sides += std::popcount(f.bold_sides);
+  EXPECT_EQ(sides, 12 * 3 * 2);  // the edges of a cube, from both faces
+  HexMesh labeled = mesh;
+  labeled.labels.edges.push_back({{VertId(0), VertId(1)}, CurveId(0)});
+  faces = find_visible_faces(labeled, {});
+  mark_creases(labeled, faces);
+  sides = 0;
+  for (const VisibleFace& f : faces) sides += std::popcount(f.bold_sides);
+  EXPECT_EQ(sides, 2);  // its labels say what is sharp
+  faces = find_visible_faces(labeled, PictureOptions::Cut{{1, 0, 0}, 0.6});
+  mark_creases(labeled, faces);
+  sides = 0;
+  for (const VisibleFace& f : faces) sides += std::popcount(f.bold_sides);
+  EXPECT_EQ(sides, 2 + 12 * 2);
+}
+
+TEST(VisibleFaces, AboutAHexHaveItInFrontAndMarked) {
+  const HexMesh mesh = test::box_hex_mesh(12, 12, 12);
+  const HexId focus(6 * 144 + 6 * 12 + 6);
+  const auto faces = find_faces_about(mesh, focus, {1, 0, 0});
+  int marked = 0;
+  for (const VisibleFace& f : faces) {
+    const Vec3 low = mesh.corners(f.face.hex)[0];
+    EXPECT_TRUE(low.x >= 6 && low.x <= 9 && low.y >= 3 && low.y <= 9);  // behind it, three steps
+    marked += f.is_focus;
+    EXPECT_EQ(f.is_focus, f.face.hex == focus);
+  }
+  EXPECT_EQ(marked, 1);  // what is seen of it from there
 }
 
 /// Decodes what write_png makes: one deflated stream, RGB, any of PNG's first three row filters.

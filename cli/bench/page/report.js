@@ -228,7 +228,8 @@ function makeStrip(m) {
   const captions = {input: `input, ${count(m.input?.cells)}`, ...Object.fromEntries(methods.map(key => [key, `${titles[key]}, ${fixed(factor(m, key), 2)}×`])),
     mesh: 'final mesh, cut', surface: 'final mesh'};
   const pictures = Object.entries(captions).filter(([part]) => m.pictures?.[part]);
-  return element('div', {className: 'strip'}, ...pictures.map(([part, caption]) => {
+  const look = m.page ? [element('a', {className: 'look', href: m.page.split('/').map(encodeURIComponent).join('/'), textContent: 'look into the mesh'})] : [];
+  return element('div', {className: 'strip'}, ...look, ...pictures.map(([part, caption]) => {
     const button = element('button', {type: 'button'}, element('img', {src: m.pictures[part], alt: `${m.model}: ${caption}`, decoding: 'async'}), element('span', {textContent: caption}));
     button.addEventListener('click', () => enlarge(m.pictures[part], `${m.model}: ${caption}`));
     return button;

@@ -4,12 +4,12 @@
 // "Carve".
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/geometry/expected_topology.h"
 #include "hexwright/geometry/side.h"
+#include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
 
@@ -22,9 +22,6 @@ struct CarveOptions {
       0.1;  ///< least n . d of a direction d that sees all quads around a boundary vertex
   double min_component_share =
       0.01;  ///< inside components smaller than this share of the largest are dropped
-  /// The topology that the kept set should have; found from the surface when absent. Where the
-  /// threshold above gives another, thin parts or gaps are kept that it would have pierced.
-  std::optional<ExpectedTopology> expected;
 };
 
 struct CarveResult {
@@ -45,8 +42,16 @@ struct CarveResult {
   /// gaps one hex thick, and in hexes whose faces the set's boundary passes by, in order of the
   /// hexes. Handles too many or too few are at some of them; smaller hexes there may mend it.
   std::vector<Vec3> thin;
+
+  void to_world(const Similarity& frame);
 };
 
+/// `expected` is the topology that the kept set should have: where keep_fraction gives another,
+/// thin parts or gaps are kept that it would have pierced.
+CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
+                  const ExpectedTopology& expected, const CarveOptions& options,
+                  const Context& context);
+/// The same with the topology that the surface tells.
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
                   const CarveOptions& options, const Context& context);
 

@@ -1,14 +1,14 @@
 // Fits a hex mesh to a surface with sharp features; no element is ever inverted.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/fit/carve.h"
-#include "hexwright/geometry/feature_graph.h"
-#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/target/target.h"
 
 namespace hexwright {
 
@@ -27,12 +27,14 @@ struct FitOptions {
   CarveOptions carve;
   bool do_carve = true;  ///< false: the mesh already stands for the object
   Padding padding = Padding::Selective;
-  /// What is shorter than the mesh resolves is left out by the stage; above 0, min_length is a
-  /// length from which on curves are considered in any mesh, and reported when they do not fit.
-  FeatureOptions features;
   double snap_quality =
       0.2;  ///< boundary vertices move to their targets while the scaled Jacobian stays above
   PatchVerts patch_verts = PatchVerts::Balanced;
+  /// Two-way distance that the mesh may have, a share of the surface's diagonal: around hexes below
+  /// lift_goal, boundary vertices leave the surface within it, as far as that raises the least
+  /// scaled Jacobian.
+  double tolerance = 0.005;
+  double lift_goal = 0.5;  ///< 0 = boundary vertices stay where they belong
 };
 
 /// What became of one feature curve.
@@ -41,12 +43,19 @@ struct CurveOutcome {
   bool is_mapped = false;
   double max_residual = 0;  ///< world units, when mapped
   std::string reason;       ///< why it was dropped
+
+  void to_world(const Similarity& frame) { max_residual = frame.length_to_world(max_residual); }
 };
 
 /// A place where the surface was not reached.
 struct Miss {
   Vec3 position;
   double distance = 0;  ///< world units
+
+  void to_world(const Similarity& frame) {
+    position = frame.to_world(position);
+    distance = frame.length_to_world(distance);
+  }
 };
 
 struct FitReport {
@@ -62,16 +71,40 @@ struct FitReport {
                                 ///< but not proven positive everywhere inside
   std::vector<std::pair<std::string, double>> seconds;            ///< per pass, by the clock
   std::vector<std::pair<std::string, double>> processor_seconds;  ///< per pass, of all threads
+
+  void to_world(const Similarity& frame);
 };
+
+struct FitMemory;  // of the fit's last passes
 
 struct FitResult {
   HexMesh mesh;  ///< labels carry patches, curves and corners; empty when nothing was kept
   FitReport report;
+  /// What lift_fit() goes on from; empty when there is nothing to lift.
+  std::shared_ptr<const FitMemory> memory;
+
+  void to_world(const Similarity& frame);
 };
 
 /// Requires: every corner of every hex of `background` has a positive Jacobian.
 /// Guarantees: so has the result. Errors: BadArgument when the requirement fails (names the hex).
-FitResult fit(const HexMesh& background, const SurfaceTree& surface, const FitOptions& options,
+///
+/// Mesh and result are in the target's coordinates. Features shorter than both the target's least
+/// length and what the mesh resolves are left out; those that are longer and still do not fit are
+/// reported.
+FitResult fit(const HexMesh& background, const Target& target, const FitOptions& options,
               const Context& context);
+/// One-shot: the surface in any units, the background, the result and its report in the same.
+FitResult fit(const HexMesh& background, const TriMesh& surface, const TargetOptions& target,
+              const FitOptions& options, const Context& context);
+
+/// The same in two steps, for callers that look at many fits and keep one: boundary vertices stay
+/// where they belong ...
+FitResult fit_unlifted(const HexMesh& background, const Target& target, const FitOptions& options,
+                       const Context& context);
+/// ... and leave it within the tolerance where that raises a least scaled Jacobian below the goal.
+/// Requires a memory, of a fit to the same target with the same options.
+FitResult lift_fit(const FitMemory& memory, const Target& target, const FitOptions& options,
+                   const Context& context);
 
 }  // namespace hexwright

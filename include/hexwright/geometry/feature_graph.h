@@ -3,7 +3,6 @@
 
 #include <array>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +23,6 @@ struct FeatureOptions {
   /// ... or as straight segments in that surface's coordinates, from vertex to vertex along one
   /// edge or several. These stay right when a surface is cleaned and renumbered.
   std::vector<std::array<Vec3, 2>> extra_segments;
-  /// What find_creases() gave for the same surface and angle, for a surface that is asked often;
-  /// found anew when absent.
-  std::optional<std::vector<std::array<VertId, 2>>> creases;
 };
 
 /// A chain of surface vertices between two corners, or a closed loop.
@@ -58,6 +54,9 @@ FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& opti
 /// The same without creases that lie off the solid's boundary (see exposure.h), as inside the union
 /// of overlapping parts: no mesh edge can follow them. The user's edges all stay.
 FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options);
+/// The same, with what find_creases() gave for this surface and the options' angle, in any order.
+FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options,
+                              std::span<const std::array<VertId, 2>> creases);
 
 /// Patch of each triangle: components connected across edges that are on none of the curves with
 /// `is_barrier` set. An empty span means all curves separate.

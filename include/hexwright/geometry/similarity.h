@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hexwright/geometry/rotation.h"
+#include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 namespace hexwright {
@@ -30,12 +31,19 @@ struct Similarity {
   }
 };
 
-/// The similarity whose unit frame has the surface's box about the origin with its longest side in
-/// [1, 2). Safe for coordinates whose squares overflow or vanish. The identity for an empty
-/// surface or one without extent.
+/// The similarity whose unit frame has the box about the origin with its longest side in [1, 2).
+/// Safe for coordinates whose squares overflow or vanish. The identity for an empty box or one
+/// without extent.
+Similarity compute_unit_frame(const Box3& box);
+/// That of the surface's box.
 Similarity compute_unit_frame(const TriMesh& surface);
 
-/// The surface with its positions mapped to the unit frame.
-TriMesh to_unit(const TriMesh& surface, const Similarity& frame);
+/// The mesh with its positions mapped to the unit frame.
+TriMesh to_unit(TriMesh surface, const Similarity& frame);
+HexMesh to_unit(HexMesh mesh, const Similarity& frame);
+
+/// The mesh with its positions mapped back to the world.
+TriMesh to_world(TriMesh surface, const Similarity& frame);
+HexMesh to_world(HexMesh mesh, const Similarity& frame);
 
 }  // namespace hexwright

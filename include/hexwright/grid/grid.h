@@ -9,6 +9,7 @@
 #include "hexwright/base/ids.h"
 #include "hexwright/base/issue.h"
 #include "hexwright/base/vec3.h"
+#include "hexwright/geometry/similarity.h"
 
 namespace hexwright {
 
@@ -36,6 +37,11 @@ static_assert(sizeof(GridCell) == 16);
 struct GridFrame {
   Vec3 origin;
   double root_size = 1;
+  /// From unit coordinates; along the axes of the frame's pose.
+  void to_world(const Similarity& frame) {
+    origin = frame.to_world(origin);
+    root_size = frame.length_to_world(root_size);
+  }
   friend bool operator==(const GridFrame&, const GridFrame&) = default;
 };
 

@@ -11,6 +11,7 @@
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/grid/grid.h"
 #include "hexwright/mesh/tri_mesh.h"
+#include "hexwright/target/target.h"
 
 namespace hexwright {
 
@@ -40,6 +41,8 @@ struct SizingResult {
       false;  ///< refinement stopped level-wise because max_cells would have been exceeded
   int reached_level = 0;
   std::vector<std::size_t> splits_by_reason;  ///< indexed like kSplitReasons
+
+  void to_world(const Similarity& frame) { grid.frame.to_world(frame); }
 };
 inline constexpr const char* kSplitReasons[] = {"minimum level", "deviation", "wall", "thickness",
                                                 "crease proximity"};
@@ -51,6 +54,9 @@ inline constexpr const char* kSplitReasons[] = {"minimum level", "deviation", "w
 /// Errors: BadArgument (an option out of range), BadGeometry (no triangles).
 SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
                         const SizingOptions& options, const Context& context);
+/// Of the target's surface and features, in the target's unit coordinates. Shares are of its
+/// diagonal, also where turning has changed the box.
+SizingResult build_grid(const Target& target, const SizingOptions& options, const Context& context);
 
 /// The root cube around a box: centred, with the margin on each side.
 GridFrame root_frame(const Box3& box, double margin);

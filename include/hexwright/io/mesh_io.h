@@ -1,11 +1,13 @@
-// Reads and writes hex and tet meshes: MEDIT .mesh, legacy VTK (ascii, binary), VTU (ascii, binary,
-// appended, compressed). Hex vertex order in files is the format's own.
+// Reads and writes hex and tet meshes: VTU, legacy VTK, MEDIT, Gmsh, Abaqus, and for writing also
+// the formats of OpenFOAM, MFEM, Nastran, Ansys, LS-DYNA and SU2 (docs/format.md). Hex vertex order
+// in files is the format's own.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "hexwright/io/set_table.h"
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/mesh/tet_mesh.h"
 
@@ -26,14 +28,25 @@ struct WriteHexOptions {
   std::vector<HexField> fields;
   bool write_sets = false;  ///< VTU, VTK: also quads, edges and corners as cells (they are always
                             ///< in the field data)
+  bool names_by_place = false;  ///< patches without a name get one by name_by_place()
+  std::string format;           ///< one of hex_mesh_formats(), or empty: by the name's extension
 };
 
-/// Writes by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus C3D8). Whole or not at all
-/// (written aside, renamed).
-void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
-                    const WriteHexOptions& options = {});
+struct WriteHexResult {
+  std::vector<ChangedName> changed_names;  ///< of sets whose names the format could not take
+};
+
+/// Writes in the format that `options` name, else by extension. Whole or not at all (written aside,
+/// renamed). An OpenFOAM mesh is a folder, by its name `polyMesh`.
+WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
+                              const WriteHexOptions& options = {});
 
 /// Extensions write_hex_mesh accepts, with the dot; for messages.
 const std::vector<std::string>& hex_mesh_extensions();
+/// What WriteHexOptions::format may be: "vtu", "gmsh2", "openfoam" ...
+const std::vector<std::string>& hex_mesh_formats();
+/// Throws Error{BadArgument}, which lists what there is, when write_hex_mesh would not know the
+/// format.
+void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format);
 
 }  // namespace hexwright

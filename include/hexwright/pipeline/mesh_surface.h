@@ -4,37 +4,30 @@
 // refines where the fit missed).
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/base/stage_record.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
-#include "hexwright/geometry/prepare_surface.h"
-#include "hexwright/geometry/rotation.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
 #include "hexwright/quality/judge.h"
+#include "hexwright/target/target.h"
 
 namespace hexwright {
 
-/// How the lattice lies on the part.
-enum class Placement {
-  Faces,  ///< along the dominant orthogonal frame of its faces (see geometry/pose.h); with the
-          ///< background meshed as well, as given, because its box would turn
-  AsGiven
-};
-
+/// Wishes only; what follows from them, and from the surface, is in the plan (pipeline/plan.h).
 struct MeshOptions {
-  Placement placement = Placement::Faces;
+  TargetOptions target = {.placement = Placement::Faces,
+                          .features = {},
+                          .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  DualOptions dual;  ///< mode follows complete.pairing
   FitOptions fit;
-  JudgeOptions judge;  ///< the features' angles follow fit.features
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -42,7 +35,9 @@ struct MeshOptions {
   /// it alone is missed all cells become a little smaller. 0 = the maximum alone counts.
   double mean_share = 0.06;
   double min_quality = 0.2;  ///< least scaled Jacobian the loop is content with
-  /// Share of the feature length within judge.edge_tolerance of mesh edges that the loop is content
+  double edge_tolerance = JudgeOptions{}.edge_tolerance;      ///< share of the diagonal
+  double corner_tolerance = JudgeOptions{}.corner_tolerance;  ///< share of the diagonal
+  /// Share of the feature length within edge_tolerance of mesh edges that the loop is content
   /// with; it refines along curves that are followed too coarsely, and along others until their
   /// cells are short enough for a path. 0 = not for features.
   double min_feature_share = 0.98;
@@ -56,13 +51,6 @@ struct MeshOptions {
 
 /// Sets the options of a single pass: a stricter a-priori criterion instead of the loop.
 void use_single_pass(MeshOptions& options);
-
-/// Seconds and counts of one stage.
-struct StageRecord {
-  std::string name;
-  double seconds = 0;
-  std::map<std::string, double> counts;
-};
 
 /// What one round of the loop reached.
 struct RoundRecord {
@@ -97,11 +85,9 @@ struct MeshResult {
   double seconds = 0;  ///< wall clock of everything
   std::vector<std::string> warnings;
   std::vector<std::string> failures;  ///< why the mesh misses the gate; empty = done and valid
-};
 
-/// Feature options for sizing and judging a surface with this diagonal: dangling crease chains and
-/// loops shorter than 3% of it do not count (the fit prunes by its own mesh size).
-FeatureOptions features_for_sizing(const FeatureOptions& options, double diagonal);
+  void to_world(const Similarity& frame);
+};
 
 /// The gate: topology valid, nothing inverted, the surface's number of components, and a two-way
 /// distance of at most twice the tolerance (of Deviation sizing; the paper's has no such goal).

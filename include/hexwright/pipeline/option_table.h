@@ -46,7 +46,7 @@ OptionTable make_option_table(MeshOptions& options);
 OptionTable make_grid_option_table(MeshOptions& options);
 OptionTable make_option_table(CompleteOptions& options);
 OptionTable make_option_table(DualStageOptions& options);
-OptionTable make_option_table(FitOptions& options);
+OptionTable make_option_table(FitStageOptions& options);
 OptionTable make_option_table(ImproveOptions& options);
 OptionTable make_option_table(PolycubeOptions& options);
 /// Of the judge: which creases count.

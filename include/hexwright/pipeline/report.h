@@ -2,8 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hexwright/io/set_table.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/polycube/polycube.h"
 
 namespace hexwright {
 
@@ -11,6 +14,7 @@ namespace hexwright {
 struct RunInfo {
   std::string input, output;  ///< paths as given
   int num_threads = 0;
+  std::vector<ChangedName> changed_names;  ///< of sets, by the output's format
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
@@ -26,6 +30,8 @@ std::string sizing_to_json(const SizingResult& sizing);
 std::string complete_to_json(const CompleteReport& complete);
 std::string dual_to_json(const DualReport& dual);
 std::string fit_to_json(const FitReport& fit);
+/// Tets count from 1 in it, as in the files.
+std::string polycube_to_json(const PolycubeReport& polycube);
 
 /// Peak resident memory of this process in bytes; 0 where the system does not tell.
 std::size_t peak_memory_bytes();

@@ -5,14 +5,21 @@
 
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/polycube/polycube.h"
 
 namespace hexwright {
 
 /// The adaptive grid that mesh_surface() would start from, with the lattice along the given axes.
-/// Of the options, `sizing` and `fit.features` count. Errors: those of prepare_surface and
+/// Of the options, `sizing` and `target.features` count. Errors: those of prepare_surface and
 /// build_grid.
 SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
                           const Context& context);
+
+/// A fit is asked for by what is wished of the surface and of the mesh.
+struct FitStageOptions {
+  TargetOptions target;
+  FitOptions fit;
+};
 
 struct DualStageOptions {
   std::optional<DualMode> mode;  ///< absent: blocks when the grid is paired, else sheets

@@ -14,6 +14,7 @@
 #include "hexwright/fit/fit.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/mesh/tet_mesh.h"
+#include "hexwright/quality/judge.h"
 
 namespace hexwright {
 
@@ -44,6 +45,8 @@ struct FoldedHex {
   TetId tet;  ///< the tet of the object that holds the centre
   bool is_map_folded =
       false;  ///< that tet, or one that shares a vertex, is not positive in the map
+
+  void to_world(const Similarity& frame) { center = frame.to_world(center); }
 };
 
 struct PolycubeReport {
@@ -61,6 +64,8 @@ struct PolycubeReport {
   double max_distance = 0;              ///< two-way, share of the diagonal; 0 when not measured
   std::vector<FoldedHex> folded;        ///< hexes of the result that are not positive
   std::vector<std::string> warnings;
+
+  void to_world(const Similarity& frame);
 };
 
 struct PolycubeResult {
@@ -69,6 +74,10 @@ struct PolycubeResult {
   Grid grid;        ///< on the polycube's integer lattice
   TriMesh surface;  ///< the object's boundary
   PolycubeReport report;
+  /// Against that boundary. Its features are the map's own curves, and not the boundary's creases.
+  Verdict verdict;
+
+  void to_world(const Similarity& frame);
 };
 
 /// Errors: BadGeometry when the connectivities differ (names the tet), when the polycube's boundary

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hexwright/geometry/similarity.h"
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/mesh/hex_shape.h"
 
@@ -28,6 +29,10 @@ struct QualitySummary {
   std::size_t num_not_positive = 0;         ///< Bezier test: proven not positive inside
   std::size_t num_undecided = 0;
   double total_volume = 0;
+
+  void to_world(const Similarity& frame) {
+    total_volume *= frame.scale() * frame.scale() * frame.scale();
+  }
 };
 QualitySummary summarize_quality(const HexMesh& mesh);
 

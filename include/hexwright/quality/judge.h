@@ -11,6 +11,7 @@
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/hex_topology.h"
 #include "hexwright/quality/surface_distance.h"
+#include "hexwright/target/target.h"
 
 namespace hexwright {
 
@@ -19,6 +20,8 @@ struct CurveRecovery {
   double length = 0;  ///< in the mesh's coordinates
   double turn = 0;    ///< sum of the angles between its segments, radians
   double length_share = 1;
+
+  void to_world(const Similarity& frame) { length = frame.length_to_world(length); }
 };
 
 /// A place on the surface's features that the mesh does not represent, in the mesh's coordinates.
@@ -26,6 +29,11 @@ struct MissedFeature {
   Vec3 position;
   CurveId curve;        ///< of FeatureRecovery::curves; invalid: a corner
   double distance = 0;  ///< of a corner to the nearest boundary vertex; 0 on a curve
+
+  void to_world(const Similarity& frame) {
+    position = frame.to_world(position);
+    distance = frame.length_to_world(distance);
+  }
 };
 
 /// How much of the surface's sharp features the mesh's edges and vertices represent.
@@ -41,13 +49,18 @@ struct FeatureRecovery {
   /// Points every edge_tolerance along the length that is not represented, and then the corners
   /// that are not recovered.
   std::vector<MissedFeature> missed;
+
+  void to_world(const Similarity& frame);
 };
 
+/// Shares are of the surface's diagonal.
 struct JudgeOptions {
-  FeatureOptions features;
-  double edge_tolerance = 0.001;     ///< share of the diagonal
-  double corner_tolerance = 0.0005;  ///< share of the diagonal
-  DistanceOptions distance;  ///< its `quads` also say whose edges and vertices may be features
+  /// What stands for the surface, and whose edges and vertices may be features.
+  JudgedQuads quads = JudgedQuads::Boundary;
+  double edge_tolerance = 0.001;
+  double corner_tolerance = 0.0005;
+  double spacing = DistanceOptions{}.spacing;  ///< of the samples that distances are measured at
+  double hot_threshold = 0;  ///< samples farther than this become SurfaceDistance::hot; 0 = none
 };
 
 /// Features of the surface that the mesh represents. Samples the curves every edge_tolerance.
@@ -64,13 +77,19 @@ struct Verdict {
       failures;  ///< why it is not valid, one sentence each; warnings are not here
   std::vector<std::string> warnings;
   bool is_valid() const { return failures.empty(); }
+  /// Maps lengths, places and volumes; the sentences hold none but shares.
+  void to_world(const Similarity& frame);
 };
 
 /// Valid = at least one hex, topology valid and no inverted hex. Distance, features, components and
 /// genus are reported, with warnings, not judged. Throws Error{BadArgument} when an index of the
 /// mesh is out of range or a coordinate is not finite.
 Verdict judge(const HexMesh& mesh, const JudgeOptions& options, const Context& context);
-Verdict judge(const HexMesh& mesh, const SurfaceTree& surface, const JudgeOptions& options,
+/// Against a target, in its coordinates.
+Verdict judge(const HexMesh& mesh, const Target& target, const JudgeOptions& options,
               const Context& context);
+/// One-shot: the surface in any units, the mesh and the verdict in the same.
+Verdict judge(const HexMesh& mesh, const TriMesh& surface, const TargetOptions& target,
+              const JudgeOptions& options, const Context& context);
 
 }  // namespace hexwright

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
 
@@ -41,6 +42,7 @@ struct SurfaceDistance {
   std::vector<Vec3> hot;     ///< samples farther than hot_threshold
   double max_two_way() const { return std::max(max_to_mesh, max_to_surface); }
   double mean_two_way() const { return std::max(mean_to_mesh, mean_to_surface); }
+  void to_world(const Similarity& frame);
 };
 
 /// Samples vertices, edges and the insides of triangles and boundary quads (each quad split about

@@ -12,6 +12,12 @@
 
 namespace hexwright {
 
+/// What faces are coloured by.
+enum class PictureColors {
+  Values,  ///< a value per hex, on the quality scale
+  Patches  ///< the patch of each boundary face; faces without one are grey
+};
+
 struct PictureOptions {
   int width = 1200, height = 900;       ///< pixels, 16 to 16384
   int supersample = 3;                  ///< samples per pixel and axis, 1 to 8
@@ -22,14 +28,28 @@ struct PictureOptions {
     double offset = 0.5;  ///< position of the plane between the box's extremes along the normal
   };
   std::optional<Cut> cut;
+  /// Shows this hex and what is around and behind it alone, its edges marked; the cut is ignored.
+  /// Invalid = the whole mesh.
+  HexId focus;
+  PictureColors colors = PictureColors::Values;
   /// Colour per hex in [0, 1] on the quality scale (red 0 .. blue 1); empty = scaled Jacobian.
   std::vector<double> values;
-  std::string legend_title = "scaled Jacobian";  ///< letters, digits, spaces and . , - + % / : ( )
+  std::string legend_title = "scaled Jacobian";
   bool draw_legend = true;
+  double letter_size = 0;  ///< pixels; 0 = by the picture's width
+  /// Edges of hexes, those of the mesh's own boundary fainter, and bold ones along feature curves
+  /// and round what a cut lays open.
   bool draw_edges = true;
   /// With a cut, the mesh's own boundary is drawn pale, so that the inside stands out.
   bool fade_boundary = true;
 };
+
+/// A view of the mesh cut open across an axis (0 to 2), at a place between the box's ends. Size and
+/// legend are the defaults.
+PictureOptions make_cut_view(int axis, double offset);
+
+/// Cut in the middle across the second longest of the box's sides.
+PictureOptions make_default_view(const HexMesh& mesh);
 
 /// RGB image, row by row from the top.
 struct Image {

@@ -213,8 +213,19 @@ void mend_topology(const SetScene& scene, const ExpectedTopology& expected,
 
 }  // namespace
 
+void CarveResult::to_world(const Similarity& frame) {
+  for (Vec3& p : lost) p = frame.to_world(p);
+  for (Vec3& p : thin) p = frame.to_world(p);
+}
+
 CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
                   const CarveOptions& options, const Context& context) {
+  return carve(background, surface, find_expected_topology(surface), options, context);
+}
+
+CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
+                  const ExpectedTopology& expected, const CarveOptions& options,
+                  const Context& context) {
   const auto watch = context.watch();
   require_positive(options.keep_fraction);
   context.progress("carve", 0);
@@ -226,8 +237,6 @@ CarveResult carve(const HexMesh& background, const SurfaceTree& surface,
 
   const SetScene scene{background, vert_to_hex, neighbors, filling, options.visible_normal};
   KeptSet kept = keep_above(scene, options.keep_fraction, options);
-  const ExpectedTopology expected =
-      options.expected ? *options.expected : find_expected_topology(surface);
   recover_lost(scene, expected, options, kept);
   if (expected.is_known) mend_topology(scene, expected, options, kept);
 

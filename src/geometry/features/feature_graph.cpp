@@ -117,14 +117,13 @@ std::vector<std::uint64_t> keys_of(std::span<const std::array<VertId, 2>> edges)
 class CreaseGraph {
  public:
   CreaseGraph(const TriMesh& surface, const FeatureOptions& options,
-              std::span<const std::array<VertId, 2>> user_edges, const SurfaceTree* tree)
+              std::span<const std::array<VertId, 2>> user_edges,
+              const std::vector<std::uint64_t>& creases)
       : surface_(surface),
         min_turn_cosine_(std::cos(options.turn_angle)),
         min_length_(options.min_length),
         user_keys_(user_keys(surface, user_edges)),
         neighbors_(surface.num_verts()) {
-    const auto creases = options.creases ? keys_of(*options.creases)
-                                         : crease_keys(surface, options.crease_angle, tree);
     std::set_union(creases.begin(), creases.end(), user_keys_.begin(), user_keys_.end(),
                    std::back_inserter(keys_));
     for (std::uint64_t key : keys_) {
@@ -249,10 +248,10 @@ class CreaseGraph {
 
 /// Chains are made anew after pruning: what a twig cut in two becomes one curve again.
 FeatureGraph extract(const TriMesh& surface, const FeatureOptions& options,
-                     const SurfaceTree* tree) {
+                     const std::vector<std::uint64_t>& creases) {
   EdgesAlong user = find_edges_along(surface, options.extra_segments);
   user.edges.insert(user.edges.end(), options.extra_edges.begin(), options.extra_edges.end());
-  CreaseGraph graph(surface, options, user.edges, tree);
+  CreaseGraph graph(surface, options, user.edges, creases);
   auto curves = graph.chain();
   for (int round = 0; round < kPruneRounds && graph.prune(curves); ++round) curves = graph.chain();
   FeatureGraph features;
@@ -283,11 +282,17 @@ std::vector<std::array<VertId, 2>> find_creases(const SurfaceTree& surface, doub
 }
 
 FeatureGraph extract_features(const TriMesh& surface, const FeatureOptions& options) {
-  return extract(surface, options, nullptr);
+  return extract(surface, options, crease_keys(surface, options.crease_angle, nullptr));
 }
 
 FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options) {
-  return extract(surface.surface(), options, &surface);
+  const TriMesh& mesh = surface.surface();
+  return extract(mesh, options, crease_keys(mesh, options.crease_angle, &surface));
+}
+
+FeatureGraph extract_features(const SurfaceTree& surface, const FeatureOptions& options,
+                              std::span<const std::array<VertId, 2>> creases) {
+  return extract(surface.surface(), options, keys_of(creases));
 }
 
 IdVector<TriId, PatchId> compute_patches(const TriMesh& surface, const FeatureGraph& features,

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
+#include "hexwright/base/parallel.h"
+
 namespace hexwright {
 
-Similarity compute_unit_frame(const TriMesh& surface) {
+Similarity compute_unit_frame(const Box3& box) {
   Similarity frame;
-  const Box3 box = bounding_box(surface);
   if (box.is_empty()) return frame;
   // Halves first: sums and differences of huge coordinates could overflow.
   const Vec3 half = box.hi * 0.5 - box.lo * 0.5;
@@ -19,10 +20,34 @@ Similarity compute_unit_frame(const TriMesh& surface) {
   return frame;
 }
 
-TriMesh to_unit(const TriMesh& surface, const Similarity& frame) {
-  TriMesh unit = surface;
-  for (Vec3& p : unit.positions) p = frame.to_unit(p);
-  return unit;
+Similarity compute_unit_frame(const TriMesh& surface) {
+  return compute_unit_frame(bounding_box(surface));
+}
+
+TriMesh to_unit(TriMesh surface, const Similarity& frame) {
+  for (Vec3& p : surface.positions) p = frame.to_unit(p);
+  return surface;
+}
+
+HexMesh to_unit(HexMesh mesh, const Similarity& frame) {
+  parallel_for(mesh.num_verts(), [&](std::size_t i) {
+    Vec3& p = mesh.positions[VertId(i)];
+    p = frame.to_unit(p);
+  });
+  return mesh;
+}
+
+TriMesh to_world(TriMesh surface, const Similarity& frame) {
+  for (Vec3& p : surface.positions) p = frame.to_world(p);
+  return surface;
+}
+
+HexMesh to_world(HexMesh mesh, const Similarity& frame) {
+  parallel_for(mesh.num_verts(), [&](std::size_t i) {
+    Vec3& p = mesh.positions[VertId(i)];
+    p = frame.to_world(p);
+  });
+  return mesh;
 }
 
 }  // namespace hexwright

@@ -3,6 +3,7 @@
 #include "hexwright/geometry/prepare_surface.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
@@ -150,15 +151,21 @@ void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
 }
 
 /// The result in the input's coordinates, without the vertices that nothing uses.
-TriMesh compact(const TriMesh& working, const IdVector<VertId, Vec3>& positions) {
+TriMesh compact(const WorkingSurface& work, const Similarity& frame,
+                const IdVector<VertId, Vec3>& given) {
   TriMesh out;
-  IdVector<VertId, char> is_used(positions.size(), 0);
-  for (const auto& tri : working.tris)
+  IdVector<VertId, char> is_used(work.mesh.num_verts(), 0);
+  for (const auto& tri : work.mesh.tris)
     for (VertId v : tri) is_used[v] = 1;
-  IdVector<VertId, VertId> old_to_new(positions.size());
-  for (VertId v : positions.ids())
-    if (is_used[v]) old_to_new[v] = out.positions.push_back(positions[v]);
-  for (const auto& tri : working.tris)
+  const auto position = [&](VertId v) {
+    if (v.index() < given.size()) return given[v];
+    const VertId from = work.added_from[v.index() - given.size()];
+    return from.is_valid() ? given[from] : frame.to_world(work.mesh.positions[v]);
+  };
+  IdVector<VertId, VertId> old_to_new(work.mesh.num_verts());
+  for (VertId v : work.mesh.positions.ids())
+    if (is_used[v]) old_to_new[v] = out.positions.push_back(position(v));
+  for (const auto& tri : work.mesh.tris)
     out.tris.push_back({old_to_new[tri[0]], old_to_new[tri[1]], old_to_new[tri[2]]});
   return out;
 }
@@ -205,13 +212,54 @@ std::vector<std::string> describe(const SurfaceDiagnosis& d, const Orientation& 
   return said;
 }
 
+std::string in_words(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void describe_union(const UniteReport& united, SurfaceDiagnosis& diagnosis) {
+  if (united.num_parts > 0)
+    diagnosis.notes.push_back(std::to_string(united.num_parts) +
+                              " parts that overlap or touch united into " +
+                              std::to_string(united.num_results));
+  if (united.num_apart > 0)
+    diagnosis.notes.push_back(std::to_string(united.num_apart) +
+                              " parts that touch along edges or in points kept apart there");
+}
+
+/// Solids that are left out one by one, the first few with their places; voids by number.
+void describe_small(const std::vector<SmallPart>& small, const Similarity& frame,
+                    SurfaceDiagnosis& diagnosis) {
+  constexpr std::size_t kMaxNamed = 5;
+  for (const SmallPart& part : small) {
+    ++(part.is_void ? diagnosis.num_small_voids : diagnosis.num_small_parts);
+    if (part.is_void || diagnosis.num_small_parts > kMaxNamed) continue;
+    const Vec3 at = frame.to_world(part.box.center()), size = part.box.extent();
+    diagnosis.warnings.push_back(
+        "the part at (" + in_words(at.x) + ", " + in_words(at.y) + ", " + in_words(at.z) + "), " +
+        in_words(frame.length_to_world(std::max({size.x, size.y, size.z}))) +
+        " long, is left out: it is smaller than the least part (--min-part)");
+  }
+  if (diagnosis.num_small_parts > kMaxNamed)
+    diagnosis.warnings.push_back(
+        counted(diagnosis.num_small_parts - kMaxNamed, "further part", "further parts") +
+        " of such size left out");
+  if (diagnosis.num_small_voids > 0)
+    diagnosis.notes.push_back(
+        counted(diagnosis.num_small_voids, "void inside the solid", "voids inside the solid") +
+        " smaller than the least part filled");
+}
+
 }  // namespace
 
-PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
+PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& options,
+                                const Context& context) {
   const auto watch = context.watch();
   check_input(input);
   const TriMesh used = used_only(input);
-  WorkingSurface work{to_unit(used, compute_unit_frame(used)), {}};
+  const Similarity frame = compute_unit_frame(used);
+  WorkingSurface work{to_unit(used, frame), {}, {}};
   for (TriId t : input.tris.ids()) work.source.push_back(t);
 
   PreparedSurface result;
@@ -219,7 +267,7 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
   std::size_t num_flat_kept = 0;
   diagnosis.num_welded_verts = weld_open_edges(work.mesh);
   diagnosis.num_degenerate_tris = remove_degenerate_tris(work, num_flat_kept);
-  diagnosis.num_duplicate_tris = remove_duplicate_tris(work);
+  diagnosis.num_duplicate_tris = remove_duplicate_tris(work, true);
   if (work.mesh.num_tris() == num_flat_kept)
     refuse("all triangles are without area; check the file's coordinates");
   check_not_flat(work.mesh);
@@ -231,13 +279,22 @@ PreparedSurface prepare_surface(const TriMesh& input, const Context& context) {
   diagnosis.num_flipped_tris = orientation.num_repaired;
   diagnosis.is_flipped_whole = orientation.num_turned_parts == orientation.num_parts;
   close_holes(work, diagnosis);
+  context.check_cancelled();
+  const UniteReport united = unite_parts(work, options.parts, input.group);
+  diagnosis.num_united_parts = united.num_parts;
+  diagnosis.num_unions = united.num_results;
+  diagnosis.num_duplicate_tris += remove_duplicate_tris(work);
+  const std::vector<SmallPart> small =
+      drop_small_parts(work, options.min_part * bounding_box(work.mesh).diagonal());
   diagnosis.num_hidden_parts = drop_hidden_parts(work);
   judge_edges(work.mesh, diagnosis);
   if (diagnosis.is_closed) check_volume(work.mesh);
 
   diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
+  describe_small(small, frame, diagnosis);
+  describe_union(united, diagnosis);
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);
-  result.mesh = compact(work.mesh, renumber(input.positions, old_to_new));
+  result.mesh = compact(work, frame, renumber(input.positions, old_to_new));
   result.source_tri = std::move(work.source);
   put_in_canonical_order(result.mesh, result.source_tri);
   carry_groups(input, result);

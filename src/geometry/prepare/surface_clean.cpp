@@ -151,15 +151,15 @@ SortedTri sorted(const TriMesh& mesh, TriId t) {
 }
 
 /// Keep flags when each group of duplicates becomes one; when `cancel`, groups with as many of one
-/// orientation as of the other become none.
-std::vector<char> reduce_groups(const TriMesh& mesh, const std::vector<SortedTri>& tris,
-                                bool cancel) {
-  std::vector<char> is_kept(mesh.num_tris(), 1);
+/// orientation as of the other become none. What is `shared` stays.
+std::vector<char> reduce_groups(const std::vector<SortedTri>& tris,
+                                const std::vector<char>& is_shared, bool cancel) {
+  std::vector<char> is_kept(tris.size(), 1);
   for (std::size_t i = 0, j = 0; i < tris.size(); i = j) {
     long balance = 0;
     for (j = i; j < tris.size() && tris[j].key == tris[i].key; ++j)
       balance += tris[j].is_even ? 1 : -1;
-    if (j - i == 1) continue;
+    if (j - i == 1 || is_shared[tris[i].tri.index()]) continue;
     const bool want_even = balance != 0 ? balance > 0 : tris[i].is_even;
     bool is_done = cancel && balance == 0;
     for (std::size_t k = i; k < j; ++k) {
@@ -171,6 +171,50 @@ std::vector<char> reduce_groups(const TriMesh& mesh, const std::vector<SortedTri
   return is_kept;
 }
 
+/// Triangles that are there once for each of several shells that lie on each other in part: every
+/// edge of such a patch is run through as often one way as the other, and its border leads on to
+/// triangles that differ. To drop one of several copies would open a shell. Walls between solids
+/// that touch, which are there in both orientations, are taken in when `walls`.
+std::vector<char> find_shared(const TriMesh& mesh, const std::vector<SortedTri>& tris, bool walls) {
+  std::vector<char> is_copy(mesh.num_tris(), 0);
+  for (std::size_t i = 0, j = 0; i < tris.size(); i = j) {
+    bool is_alike = true;
+    for (j = i; j < tris.size() && tris[j].key == tris[i].key; ++j)
+      is_alike = is_alike && tris[j].is_even == tris[i].is_even;
+    for (std::size_t k = i; k < j; ++k)
+      is_copy[tris[k].tri.index()] = (is_alike || walls) && j - i > 1;
+  }
+  const SurfaceEdges edges = compute_surface_edges(mesh);
+  UnionFind patches(mesh.num_tris());
+  std::vector<char> is_balanced(mesh.num_tris(), 1), has_border(mesh.num_tris(), 0);
+  const auto visit_edges = [&](auto visit) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto sides = edges.sides_of(e);
+      const auto first = std::ranges::find_if(
+          sides, [&](const SurfaceEdges::Side& s) { return is_copy[s.tri.index()] != 0; });
+      if (first != sides.end()) visit(sides, *first);
+    }
+  };
+  visit_edges([&](auto sides, const SurfaceEdges::Side& first) {
+    for (const SurfaceEdges::Side& s : sides)
+      if (is_copy[s.tri.index()]) patches.unite(first.tri.value(), s.tri.value());
+  });
+  visit_edges([&](auto sides, const SurfaceEdges::Side& first) {
+    const auto patch = static_cast<std::size_t>(patches.find(first.tri.value()));
+    long balance = 0;
+    for (const SurfaceEdges::Side& s : sides) {
+      balance += s.is_forward ? 1 : -1;
+      if (!is_copy[s.tri.index()]) has_border[patch] = 1;
+    }
+    if (balance != 0) is_balanced[patch] = 0;
+  });
+  for (std::size_t t = 0; t < is_copy.size(); ++t) {
+    const auto patch = static_cast<std::size_t>(patches.find(static_cast<int>(t)));
+    is_copy[t] = is_copy[t] && is_balanced[patch] && has_border[patch];
+  }
+  return is_copy;
+}
+
 /// What keeping these triangles would leave open.
 std::size_t odd_edges_with(const WorkingSurface& surface, const std::vector<char>& is_kept) {
   WorkingSurface reduced = surface;
@@ -180,7 +224,7 @@ std::size_t odd_edges_with(const WorkingSurface& surface, const std::vector<char
 
 }  // namespace
 
-std::size_t remove_duplicate_tris(WorkingSurface& surface) {
+std::size_t remove_duplicate_tris(WorkingSurface& surface, bool keep_walls) {
   std::vector<SortedTri> tris;
   for (TriId t : surface.mesh.tris.ids()) tris.push_back(sorted(surface.mesh, t));
   std::sort(tris.begin(), tris.end(), [](const SortedTri& a, const SortedTri& b) {
@@ -191,8 +235,9 @@ std::size_t remove_duplicate_tris(WorkingSurface& surface) {
                          [](const auto& a, const auto& b) { return a.key == b.key; }) != tris.end();
   if (!has_duplicates) return 0;
   // A wall between two touching solids cancels; both sides of a doubled surface must not.
-  std::vector<char> is_kept = reduce_groups(surface.mesh, tris, true);
-  const std::vector<char> one_each = reduce_groups(surface.mesh, tris, false);
+  const std::vector<char> is_shared = find_shared(surface.mesh, tris, keep_walls);
+  std::vector<char> is_kept = reduce_groups(tris, is_shared, true);
+  const std::vector<char> one_each = reduce_groups(tris, is_shared, false);
   const bool is_empty = std::count(is_kept.begin(), is_kept.end(), 1) == 0;
   if (is_empty || odd_edges_with(surface, is_kept) > odd_edges_with(surface, one_each))
     is_kept = one_each;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 #include "geometry/prepare/surface_edges.h"
@@ -13,6 +14,8 @@ namespace hexwright {
 struct WorkingSurface {
   TriMesh mesh;
   IdVector<TriId, TriId> source;  ///< per triangle: its id in the input; invalid: made here
+  /// Per vertex beyond those of the input: the one that it is a copy of; invalid: made here.
+  std::vector<VertId> added_from;
 
   /// Keeps the triangles for which the flag is set.
   void keep(const std::vector<char>& is_kept);
@@ -32,13 +35,37 @@ std::size_t weld_open_edges(TriMesh& mesh);
 std::size_t remove_degenerate_tris(WorkingSurface& surface, std::size_t& num_kept);
 
 /// Reduces triangles on the same three vertices to one; equal numbers of opposite orientation
-/// cancel, unless that opens the surface. Returns how many are dropped.
-std::size_t remove_duplicate_tris(WorkingSurface& surface);
+/// cancel, unless that opens the surface. What several closed shells share stays; with `keep_walls`
+/// also the walls between solids that touch, which belong to both. Returns how many are dropped.
+std::size_t remove_duplicate_tris(WorkingSurface& surface, bool keep_walls = false);
 
 /// Closes every loop of open edges with a patch over its vertices; a fin's outline is none where it
 /// is attached. The surface must be oriented. Triangles added have no source. Returns the number of
 /// patches.
 std::size_t fill_holes(WorkingSurface& surface);
+
+struct UniteReport {
+  std::size_t num_parts = 0;    ///< solids that were united with another
+  std::size_t num_results = 0;  ///< what they became
+  std::size_t num_apart = 0;    ///< solids that touch along edges or in points, and stay as many
+};
+
+/// Puts the surface of their union in the place of solids that overlap or touch. A solid is a
+/// closed, consistently oriented piece with the cavities in it. The surface must be oriented.
+/// `groups` are those of the input's triangles, or none: triangles of different ones stay apart.
+UniteReport unite_parts(WorkingSurface& surface, Parts parts,
+                        const IdVector<TriId, std::int32_t>& groups);
+
+/// A part that is too small to be meant, or to be meshed.
+struct SmallPart {
+  Box3 box;  ///< in the unit frame
+  std::size_t num_tris = 0;
+  bool is_void = false;  ///< a hole inside the solid
+};
+
+/// Removes components no longer than `least` in any direction (unit frame), solids and voids alike,
+/// as long as a larger one remains, and those without thickness. Returns the former.
+std::vector<SmallPart> drop_small_parts(WorkingSurface& surface, double least);
 
 /// Removes parts with the solid on both of their sides. They bound nothing, but sizing, features
 /// and distances would follow them. The region with winding number above one half stays the same.

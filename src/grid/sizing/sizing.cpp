@@ -221,4 +221,13 @@ SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
   return result;
 }
 
+SizingResult build_grid(const Target& target, const SizingOptions& options,
+                        const Context& context) {
+  SizingOptions of_box = options;
+  const double turned = target.diagonal() / target.tree.box().diagonal();
+  of_box.tolerance *= turned;
+  of_box.min_edge *= turned;
+  return build_grid(target.surface(), target.features, of_box, context);
+}
+
 }  // namespace hexwright

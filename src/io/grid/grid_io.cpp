@@ -33,7 +33,7 @@ GridFile read_grid_file(const std::filesystem::path& path) {
 /// are when all of them are split.
 std::string grid_vtu(const Grid& grid) {
   const HexMesh mesh = grid_to_hexes(grid);
-  VtkOutput data = make_vtk_output(mesh, {});
+  VtkOutput data = make_vtk_output(mesh, {}, {});
   data.cell_data.front().name = "level";
   VtkOutArray frame;
   frame.name = "grid_frame";
@@ -74,7 +74,7 @@ void write_grid(const std::filesystem::path& path, const Grid& grid) {
   else if (extension == ".htg")
     write_file_atomically(path, io::htg_bytes(grid));
   else if (extension == ".mesh")
-    write_file_atomically(path, io::medit_text(io::grid_to_hexes(grid)));
+    write_file_atomically(path, io::medit_text(io::grid_to_hexes(grid), {}));
   else if (extension == ".vtu")
     write_file_atomically(path, io::grid_vtu(grid));
   else

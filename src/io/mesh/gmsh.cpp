@@ -1,14 +1,14 @@
-// Writes Gmsh files, version 4.1, as text.
+// Writes Gmsh files as text, versions 4.1 and 2.2.
 //
-// Physical groups carry the labels: volumes REGION_r, surfaces PATCH_p, curves CURVE_c and the
-// points CORNERS. Every label is one elementary entity of the same dimension; all nodes belong to
-// the first volume.
+// Physical groups carry the sets: volumes for regions, surfaces for patches, curves and points.
+// Every set is one elementary entity of the same dimension; in version 4.1 all nodes belong to the
+// first volume, and a patch "wall.2" is in the physical group "wall" too (an element of version 2.2
+// has one group only).
 //
-// Based on: Geuzaine, Remacle, "Gmsh reference manual", section "MSH file format", version 4.1. Its
-// hexahedron and quadrilateral have our local order.
+// Based on: Geuzaine, Remacle, "Gmsh reference manual", section "MSH file format", versions 4.1 and
+// 2. Its hexahedron and quadrilateral have our local order.
 #include <algorithm>
 
-#include "io/mesh/element_sets.h"
 #include "io/mesh/volume_file.h"
 #include "io/text/text_writer.h"
 
@@ -18,33 +18,47 @@ namespace {
 // Gmsh's element types.
 constexpr int kGmshLine = 1, kGmshQuad = 3, kGmshHex = 5, kGmshPoint = 15;
 
-/// Entity and physical tags must be positive: label + 1, moved up when labels are negative (-1 is
+/// Entity and physical tags must be positive: number + 1, moved up when numbers are negative (-1 is
 /// "none").
 class TagMap {
  public:
-  explicit TagMap(const ElementSets& sets)
-      : lowest_(sets.empty() ? 0 : std::min(0, sets.begin()->first)) {}
-  std::int64_t operator()(std::int32_t label) const { return std::int64_t{label} - lowest_ + 1; }
+  explicit TagMap(const std::vector<NamedSet>& sets)
+      : lowest_(sets.empty() ? 0 : std::min(0, sets.front().number)),
+        highest_(sets.empty() ? 0 : (*this)(sets.back().number)) {}
+  std::int64_t operator()(std::int32_t number) const { return std::int64_t{number} - lowest_ + 1; }
+  std::int64_t highest() const { return highest_; }
 
  private:
   std::int32_t lowest_;
+  std::int64_t highest_;
 };
 
 class GmshWriter {
  public:
-  explicit GmshWriter(const HexMesh& mesh)
+  GmshWriter(const HexMesh& mesh, const SetTable& table)
       : mesh_(mesh),
-        sets_(group_labels(mesh)),
-        regions_(sets_.hexes_of_region),
-        patches_(sets_.quads_of_patch),
-        curves_(sets_.edges_of_curve) {}
+        table_(table),
+        regions_(table.regions),
+        patches_(table.patches),
+        curves_(table.curves) {}
 
-  std::string run() {
+  std::string run_4() {
     out_.text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
-    write_names();
+    write_names(true);
     write_entities();
-    write_nodes();
-    write_elements();
+    write_nodes_4();
+    write_elements_4();
+    return out_.take();
+  }
+
+  std::string run_2() {
+    out_.text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+    write_names(false);
+    out_.text("$Nodes\n").integer(mesh_.num_verts()).text("\n");
+    for (VertId v : mesh_.positions.ids())
+      out_.integer(v.value() + 1).text(" ").point(mesh_.positions[v]).text("\n");
+    out_.text("$EndNodes\n");
+    write_elements_2();
     return out_.take();
   }
 
@@ -53,59 +67,57 @@ class GmshWriter {
     out_.integer(dimension).text(" ").integer(tag).text(" \"").text(text).text("\"\n");
   }
 
-  void write_names() {
-    const bool has_corners = !mesh_.labels.corners.empty();
+  /// Groups of patches have the tags behind those of the patches.
+  void write_names(bool with_groups) {
+    const std::size_t num_groups = with_groups ? table_.patch_groups.size() : 0;
     out_.text("$PhysicalNames\n")
-        .integer(sets_.hexes_of_region.size() + sets_.quads_of_patch.size() +
-                 sets_.edges_of_curve.size() + (has_corners ? 1 : 0))
+        .integer(table_.regions.size() + table_.patches.size() + num_groups + table_.curves.size() +
+                 table_.corners.size())
         .text("\n");
-    if (has_corners) name(0, 1, "CORNERS");
-    for (const auto& [curve, edges] : sets_.edges_of_curve)
-      name(1, curves_(curve), set_name("CURVE", curve));
-    for (const auto& [patch, quads] : sets_.quads_of_patch)
-      name(2, patches_(patch), set_name("PATCH", patch));
-    for (const auto& [region, hexes] : sets_.hexes_of_region)
-      name(3, regions_(region), set_name("REGION", region));
+    for (const NamedSet& set : table_.corners) name(0, 1, set.name);
+    for (const NamedSet& set : table_.curves) name(1, curves_(set.number), set.name);
+    for (const NamedSet& set : table_.patches) name(2, patches_(set.number), set.name);
+    for (std::size_t g = 0; g < num_groups; ++g) name(2, group_tag(g), table_.patch_groups[g].name);
+    for (const NamedSet& set : table_.regions) name(3, regions_(set.number), set.name);
     out_.text("$EndPhysicalNames\n");
   }
 
-  /// One entity: tag, box, its physical group, no bounding entities.
-  void entity(std::int64_t tag, const Box3& box) {
-    out_.integer(tag).text(" ").point(box.lo).text(" ").point(box.hi).text(" 1 ");
-    out_.integer(tag).text(" 0\n");
+  std::int64_t group_tag(std::size_t g) const {
+    return patches_.highest() + static_cast<std::int64_t>(g) + 1;
   }
 
-  template <class Elements>
-  Box3 box_of(const Elements& elements, const std::vector<std::size_t>& which) const {
+  /// One entity: tag, box, its physical groups, no bounding entities.
+  void entity(std::int64_t tag, const NamedSet& set) {
     Box3 box;
-    for (std::size_t i : which)
-      for (VertId v : elements[i].verts) box.extend(mesh_.positions[v]);
-    return box;
+    for (VertId v : set_nodes(mesh_, set)) box.extend(mesh_.positions[v]);
+    std::vector<std::int64_t> groups = {tag};
+    if (set.kind == SetKind::Patch)
+      for (std::size_t g = 0; g < table_.patch_groups.size(); ++g) {
+        const auto& members = table_.patch_groups[g].members;
+        if (std::binary_search(members.begin(), members.end(), set.members[0]))
+          groups.push_back(group_tag(g));
+      }
+    out_.integer(tag).text(" ").point(box.lo).text(" ").point(box.hi).text(" ");
+    out_.integer(groups.size());
+    for (std::int64_t group : groups) out_.text(" ").integer(group);
+    out_.text(" 0\n");
   }
 
   void write_entities() {
     out_.text("$Entities\n").integer(mesh_.labels.corners.size()).text(" ");
-    out_.integer(sets_.edges_of_curve.size()).text(" ").integer(sets_.quads_of_patch.size());
-    out_.text(" ").integer(sets_.hexes_of_region.size()).text("\n");
+    out_.integer(table_.curves.size()).text(" ").integer(table_.patches.size());
+    out_.text(" ").integer(table_.regions.size()).text("\n");
     for (std::size_t c = 0; c < mesh_.labels.corners.size(); ++c)
       out_.integer(c + 1).text(" ").point(mesh_.positions[mesh_.labels.corners[c]]).text(" 1 1\n");
-    for (const auto& [curve, edges] : sets_.edges_of_curve)
-      entity(curves_(curve), box_of(mesh_.labels.edges, edges));
-    for (const auto& [patch, quads] : sets_.quads_of_patch)
-      entity(patches_(patch), box_of(mesh_.labels.quads, quads));
-    for (const auto& [region, hexes] : sets_.hexes_of_region) {
-      Box3 box;
-      for (std::size_t h : hexes)
-        for (VertId v : mesh_.hexes[HexId(h)]) box.extend(mesh_.positions[v]);
-      entity(regions_(region), box);
-    }
+    for (const NamedSet& set : table_.curves) entity(curves_(set.number), set);
+    for (const NamedSet& set : table_.patches) entity(patches_(set.number), set);
+    for (const NamedSet& set : table_.regions) entity(regions_(set.number), set);
     out_.text("$EndEntities\n");
   }
 
-  void write_nodes() {
+  void write_nodes_4() {
     const std::size_t count = mesh_.num_verts();
-    const std::int64_t volume =
-        sets_.hexes_of_region.empty() ? 1 : regions_(sets_.hexes_of_region.begin()->first);
+    const std::int64_t volume = table_.regions.empty() ? 1 : regions_(table_.regions[0].number);
     out_.text("$Nodes\n1 ").integer(count).text(" 1 ").integer(count).text("\n3 ");
     out_.integer(volume).text(" 0 ").integer(count).text("\n");
     for (std::size_t v = 1; v <= count; ++v) out_.integer(v).text("\n");
@@ -122,36 +134,64 @@ class GmshWriter {
     out_.integer(++last_element_).text(" ").indices(verts, 1).text("\n");
   }
 
-  void write_elements() {
+  std::size_t num_elements() const {
     const BoundaryLabels& labels = mesh_.labels;
-    const std::size_t count =
-        labels.corners.size() + labels.edges.size() + labels.quads.size() + mesh_.num_hexes();
+    return labels.corners.size() + labels.edges.size() + labels.quads.size() + mesh_.num_hexes();
+  }
+
+  void write_elements_4() {
+    const BoundaryLabels& labels = mesh_.labels;
+    const std::size_t count = num_elements();
     out_.text("$Elements\n")
-        .integer(labels.corners.size() + sets_.edges_of_curve.size() + sets_.quads_of_patch.size() +
-                 sets_.hexes_of_region.size())
+        .integer(labels.corners.size() + table_.curves.size() + table_.patches.size() +
+                 table_.regions.size())
         .text(" ");
     out_.integer(count).text(" 1 ").integer(count).text("\n");
     for (std::size_t c = 0; c < labels.corners.size(); ++c) {
       block(0, static_cast<std::int64_t>(c) + 1, kGmshPoint, 1);
       element(std::array{labels.corners[c]});
     }
-    for (const auto& [curve, edges] : sets_.edges_of_curve) {
-      block(1, curves_(curve), kGmshLine, edges.size());
-      for (std::size_t e : edges) element(labels.edges[e].verts);
+    for (const NamedSet& set : table_.curves) {
+      block(1, curves_(set.number), kGmshLine, set.members.size());
+      for (std::size_t e : set.members) element(labels.edges[e].verts);
     }
-    for (const auto& [patch, quads] : sets_.quads_of_patch) {
-      block(2, patches_(patch), kGmshQuad, quads.size());
-      for (std::size_t q : quads) element(labels.quads[q].verts);
+    for (const NamedSet& set : table_.patches) {
+      block(2, patches_(set.number), kGmshQuad, set.members.size());
+      for (std::size_t q : set.members) element(labels.quads[q].verts);
     }
-    for (const auto& [region, hexes] : sets_.hexes_of_region) {
-      block(3, regions_(region), kGmshHex, hexes.size());
-      for (std::size_t h : hexes) element(mesh_.hexes[HexId(h)]);
+    for (const NamedSet& set : table_.regions) {
+      block(3, regions_(set.number), kGmshHex, set.members.size());
+      for (std::size_t h : set.members) element(mesh_.hexes[HexId(h)]);
     }
     out_.text("$EndElements\n");
   }
 
+  /// Number, type, two tags (physical and elementary), nodes.
+  template <class Verts>
+  void element_2(int type, std::int64_t physical, std::int64_t elementary, const Verts& verts) {
+    out_.integer(++last_element_).text(" ").integer(type).text(" 2 ").integer(physical);
+    out_.text(" ").integer(elementary).text(" ").indices(verts, 1).text("\n");
+  }
+
+  void write_elements_2() {
+    const BoundaryLabels& labels = mesh_.labels;
+    out_.text("$Elements\n").integer(num_elements()).text("\n");
+    for (std::size_t c = 0; c < labels.corners.size(); ++c)
+      element_2(kGmshPoint, 1, static_cast<std::int64_t>(c) + 1, std::array{labels.corners[c]});
+    for (const NamedSet& set : table_.curves)
+      for (std::size_t e : set.members)
+        element_2(kGmshLine, curves_(set.number), curves_(set.number), labels.edges[e].verts);
+    for (const NamedSet& set : table_.patches)
+      for (std::size_t q : set.members)
+        element_2(kGmshQuad, patches_(set.number), patches_(set.number), labels.quads[q].verts);
+    for (const NamedSet& set : table_.regions)
+      for (std::size_t h : set.members)
+        element_2(kGmshHex, regions_(set.number), regions_(set.number), mesh_.hexes[HexId(h)]);
+    out_.text("$EndElements\n");
+  }
+
   const HexMesh& mesh_;
-  LabelSets sets_;
+  const SetTable& table_;
   TagMap regions_, patches_, curves_;
   TextWriter out_;
   std::size_t last_element_ = 0;
@@ -159,6 +199,20 @@ class GmshWriter {
 
 }  // namespace
 
-std::string gmsh_text(const HexMesh& mesh) { return GmshWriter(mesh).run(); }
+NameRules gmsh_names() {
+  NameRules rules;
+  rules.max_length = 127;
+  rules.is_allowed = [](char c) { return c != '"'; };
+  rules.is_unique_per_kind = true;
+  return rules;
+}
+
+std::string gmsh_text(const HexMesh& mesh, const SetTable& table) {
+  return GmshWriter(mesh, table).run_4();
+}
+
+std::string gmsh2_text(const HexMesh& mesh, const SetTable& table) {
+  return GmshWriter(mesh, table).run_2();
+}
 
 }  // namespace hexwright::io

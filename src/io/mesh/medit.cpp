@@ -2,12 +2,16 @@
 // patch, Edges with the curve, Corners).
 //
 // Reference numbers: a hex's is its region; a quad's or edge's is its patch or curve plus one, 0
-// for none.
+// for none. Names of regions, patches and curves stand in comments, "# patch 3 inlet", which other
+// readers pass over.
 //
 // Based on: Frey, "MEDIT: an interactive mesh visualization software", INRIA technical report 253,
 // 2001 (keywords and their fields; indices from 1).
+#include <algorithm>
+#include <charconv>
 #include <limits>
 
+#include "io/mesh/set_names.h"
 #include "io/mesh/volume_file.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
@@ -167,17 +171,66 @@ class MeditReader {
   bool has_regions_ = false;
 };
 
+struct NamedKind {
+  SetKind kind;
+  std::string_view word;
+  std::int32_t ref_minus_number;
+};
+constexpr NamedKind kNamedKinds[] = {
+    {SetKind::Region, "region", 0}, {SetKind::Patch, "patch", 1}, {SetKind::Curve, "curve", 1}};
+
+/// Sets that have a name of their own, before the vertices.
+void write_names(const SetTable& table, TextWriter& out) {
+  for (const NamedKind& kind : kNamedKinds)
+    for (const NamedSet& set : kind.kind == SetKind::Region  ? table.regions
+                               : kind.kind == SetKind::Patch ? table.patches
+                                                             : table.curves) {
+      if (set.number < 0 || !set.is_given) continue;
+      out.text("# ").text(kind.word).text(" ");
+      out.integer(std::int64_t{set.number} + kind.ref_minus_number).text(" ");
+      out.text(set.name).text("\n");
+    }
+}
+
+/// "# patch 3 inlet" in the lines before the vertices.
+void read_names(std::string_view text, SetNames& names) {
+  text = text.substr(0, text.find("Vertices"));
+  for (std::size_t end = 0; !text.empty(); text.remove_prefix(std::min(end + 1, text.size()))) {
+    end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    for (const NamedKind& kind : kNamedKinds) {
+      const std::string start = "# " + std::string(kind.word) + " ";
+      if (!line.starts_with(start)) continue;
+      line.remove_prefix(start.size());
+      std::int32_t ref = 0;
+      const auto number = std::from_chars(line.data(), line.data() + line.size(), ref);
+      if (number.ec == std::errc() && number.ptr < line.data() + line.size() && *number.ptr == ' ')
+        names.add(kind.kind, std::int64_t{ref} - kind.ref_minus_number,
+                  {number.ptr, static_cast<std::size_t>(line.data() + line.size() - number.ptr)});
+    }
+  }
+}
+
 }  // namespace
 
-VolumeFile read_medit(const VolumeSource& source) { return MeditReader(source).run(); }
+VolumeFile read_medit(const VolumeSource& source) {
+  VolumeFile file = MeditReader(source).run();
+  SetNames names;
+  read_names(source.bytes, names);
+  names.apply(file);
+  return file;
+}
+
+NameRules medit_names() { return {}; }
 
 /// Coordinates have the fewest digits that give the same double back.
-std::string medit_text(const HexMesh& mesh) {
+std::string medit_text(const HexMesh& mesh, const SetTable& table) {
   TextWriter out;
   const auto section = [&](const char* name, std::size_t count) {
     out.text("\n").text(name).text("\n").integer(count).text("\n");
   };
   out.text("MeshVersionFormatted 2\nDimension 3\n");
+  write_names(table, out);
   section("Vertices", mesh.num_verts());
   for (const Vec3& p : mesh.positions) out.point(p).text(" 0\n");
   section("Hexahedra", mesh.num_hexes());

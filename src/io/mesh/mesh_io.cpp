@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "hexwright/io/atomic_file.h"
+#include "hexwright/io/set_summary.h"
 
 #include "io/mesh/volume_file.h"
+#include "io/solver/solver_formats.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
@@ -17,24 +19,50 @@ namespace {
 /// A row of the table of formats; adding a format means adding its row and its file.
 struct MeshFormat {
   const char* name;
+  const char* id;  ///< for WriteHexOptions::format
   const char* extension;
   VolumeFile (*read)(const VolumeSource&);  ///< null: only written
-  std::string (*write)(const HexMesh&, const WriteHexOptions&);
+  NameRules (*names)();
+  std::string (*write)(const HexMesh&, const SetTable&, const WriteHexOptions&);
 };
 
+template <std::string (*Write)(const HexMesh&, const SetTable&)>
+std::string without_options(const HexMesh& mesh, const SetTable& table, const WriteHexOptions&) {
+  return Write(mesh, table);
+}
+
 constexpr MeshFormat kFormats[] = {
-    {"VTU", ".vtu", read_vtu, vtu_bytes},
-    {"legacy VTK", ".vtk", read_vtk_legacy, vtk_legacy_bytes},
-    {"MEDIT", ".mesh", read_medit,
-     [](const HexMesh& mesh, const WriteHexOptions&) { return medit_text(mesh); }},
-    {"Gmsh", ".msh", nullptr,
-     [](const HexMesh& mesh, const WriteHexOptions&) { return gmsh_text(mesh); }},
-    {"Abaqus", ".inp", nullptr,
-     [](const HexMesh& mesh, const WriteHexOptions&) { return abaqus_text(mesh); }}};
+    {"VTU", "vtu", ".vtu", read_vtu, vtk_names, vtu_bytes},
+    {"legacy VTK", "vtk", ".vtk", read_vtk_legacy, vtk_names, vtk_legacy_bytes},
+    {"MEDIT", "medit", ".mesh", read_medit, medit_names, without_options<medit_text>},
+    {"Gmsh 4.1", "gmsh", ".msh", read_gmsh, gmsh_names, without_options<gmsh_text>},
+    {"Gmsh 2.2", "gmsh2", ".msh2", read_gmsh, gmsh_names, without_options<gmsh2_text>},
+    {"Abaqus", "abaqus", ".inp", read_abaqus, abaqus_names, without_options<abaqus_text>},
+    {"MFEM", "mfem", ".mfem", nullptr, mfem_names, without_options<mfem_text>},
+    {"Exodus II", "exodus", ".exo", nullptr, exodus_names, without_options<exodus_bytes>},
+    {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>},
+    {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>},
+    {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, without_options<lsdyna_text>},
+    {"SU2", "su2", ".su2", nullptr, su2_names, without_options<su2_text>}};
+
+/// The one format that is a folder.
+constexpr const char* kOpenFoam = "openfoam";
+
+bool is_openfoam(const std::filesystem::path& path, const std::string& format) {
+  const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+  return format.empty() ? name == "polyMesh" : format == kOpenFoam;
+}
 
 const MeshFormat* find_format(const std::string& extension) {
   const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats),
                                    [&](const MeshFormat& f) { return extension == f.extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+const MeshFormat* find_format(const std::filesystem::path& path, const std::string& id) {
+  if (id.empty()) return find_format(lower_extension(path));
+  const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                   [&](const MeshFormat& f) { return id == f.id; });
   return found == std::end(kFormats) ? nullptr : found;
 }
 
@@ -94,6 +122,7 @@ VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& exte
   const std::string_view first = TextScanner(bytes, source.name).token();
   if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(source);
   if (first == "MeshVersionFormatted") return read_medit(source);
+  if (first == "$MeshFormat") return read_gmsh(source);
   const MeshFormat* format = find_format(extension);
   if (format && format->read) return format->read(source);
   throw bad_file(source.name,
@@ -115,6 +144,14 @@ std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh) {
 
 }  // namespace io
 
+namespace {
+
+/// What an OpenFOAM mesh that is replaced may hold; sets and other folders are the user's.
+const std::vector<std::string> kOpenFoamFiles = {
+    "points", "faces", "owner", "neighbour", "boundary", "cellZones", "faceZones", "pointZones"};
+
+}  // namespace
+
 HexMesh read_hex_mesh(const std::filesystem::path& path) {
   io::VolumeFile file = io::read_volume_file(path);
   if (file.hexes.empty())
@@ -124,6 +161,7 @@ HexMesh read_hex_mesh(const std::filesystem::path& path) {
   mesh.positions = std::move(file.positions);
   mesh.hexes = std::move(file.hexes);
   mesh.region = IdVector<HexId, std::int32_t>(std::move(file.region));
+  mesh.region_names = std::move(file.region_names);
   mesh.labels = std::move(file.labels);
   if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);
   return mesh;
@@ -141,17 +179,45 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
-                    const WriteHexOptions& options) {
+WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
+                              const WriteHexOptions& options) {
   io::check_writable(mesh, options);
-  const std::string extension = io::lower_extension(path);
-  const io::MeshFormat* format = io::find_format(extension);
-  if (!format)
-    throw Error(
-        ErrorCode::BadArgument,
-        "cannot write a hex mesh as '" + extension + "'; use one of " + io::list_formats(false),
-        path.string());
-  write_file_atomically(path, format->write(mesh, options));
+  check_hex_mesh_format(path, options.format);
+  WriteHexResult result;
+  SetTable table = make_set_table(mesh);
+  if (options.names_by_place) name_by_place(mesh, table);
+  if (io::is_openfoam(path, options.format)) {
+    result.changed_names = apply_name_rules(io::openfoam_names(), table);
+    io::write_folder_atomically(path, io::openfoam_files(mesh, table), kOpenFoamFiles);
+    return result;
+  }
+  const io::MeshFormat* format = io::find_format(path, options.format);
+  result.changed_names = apply_name_rules(format->names(), table);
+  write_file_atomically(path, format->write(mesh, table, options));
+  return result;
+}
+
+void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format) {
+  if (io::is_openfoam(path, format) || io::find_format(path, format)) return;
+  if (!format.empty()) {
+    std::string list;
+    for (const std::string& known : hex_mesh_formats()) list += (list.empty() ? "" : ", ") + known;
+    throw Error(ErrorCode::BadArgument, "there is no format '" + format + "'; use one of " + list);
+  }
+  throw Error(ErrorCode::BadArgument,
+              "cannot write a hex mesh as '" + io::lower_extension(path) + "'; use one of " +
+                  io::list_formats(false) + ", or OpenFOAM polyMesh (a folder of this name)",
+              path.string());
+}
+
+const std::vector<std::string>& hex_mesh_formats() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> list;
+    for (const io::MeshFormat& f : io::kFormats) list.emplace_back(f.id);
+    list.emplace_back(io::kOpenFoam);
+    return list;
+  }();
+  return kNames;
 }
 
 const std::vector<std::string>& hex_mesh_extensions() {

@@ -17,7 +17,8 @@ namespace hexwright::io {
 struct VolumeFile {
   IdVector<VertId, Vec3> positions;
   IdVector<HexId, std::array<VertId, 8>> hexes;
-  std::vector<std::int32_t> region;  ///< one per hex, or empty
+  std::vector<std::int32_t> region;       ///< one per hex, or empty
+  std::vector<std::string> region_names;  ///< as in HexMesh
   IdVector<TetId, std::array<VertId, 4>> tets;
   BoundaryLabels labels;
   std::size_t num_others = 0;      ///< elements of kinds that are left out
@@ -33,14 +34,21 @@ struct VolumeSource {
 VolumeFile read_medit(const VolumeSource& source);
 VolumeFile read_vtk_legacy(const VolumeSource& source);
 VolumeFile read_vtu(const VolumeSource& source);
+VolumeFile read_gmsh(const VolumeSource& source);
+VolumeFile read_abaqus(const VolumeSource& source);
 /// Finds the format by content, then by extension.
 VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension);
 
-std::string medit_text(const HexMesh& mesh);
-std::string gmsh_text(const HexMesh& mesh);
-std::string abaqus_text(const HexMesh& mesh);
-std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options);
-std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options);
+std::string medit_text(const HexMesh& mesh, const SetTable& table);
+std::string gmsh_text(const HexMesh& mesh, const SetTable& table);
+std::string gmsh2_text(const HexMesh& mesh, const SetTable& table);
+std::string vtk_legacy_bytes(const HexMesh& mesh, const SetTable& table,
+                             const WriteHexOptions& options);
+std::string vtu_bytes(const HexMesh& mesh, const SetTable& table, const WriteHexOptions& options);
+
+NameRules medit_names();
+NameRules gmsh_names();
+NameRules vtk_names();
 
 /// 0 = inside the volume or unlabelled, 1 = on a labelled quad, 2 = on a labelled edge, 3 = corner.
 std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh);

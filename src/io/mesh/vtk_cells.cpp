@@ -1,7 +1,9 @@
 // Between hex meshes and VTK's unstructured grids.
 //
 // Cells are the hexes alone, so that viewers and solvers see a pure hex mesh; the labels travel in
-// the field data, which every program keeps and none interprets.
+// the field data, which every program keeps and none interprets. A named set is an array of the
+// field data under the set's name: its number and its dimension (3 regions, 2 patches, 1 curves),
+// as other programs keep Gmsh's physical groups.
 #include "io/mesh/vtk_cells.h"
 
 #include <cmath>
@@ -9,6 +11,7 @@
 
 #include "hexwright/base/cancel.h"
 
+#include "io/mesh/set_names.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 
@@ -20,6 +23,12 @@ constexpr const char* kQuadPatch = "boundary_quad_patch";
 constexpr const char* kEdges = "feature_edges";
 constexpr const char* kEdgeCurve = "feature_edge_curve";
 constexpr const char* kCorners = "corners";
+/// Says how many arrays of the field data are names of sets.
+constexpr const char* kNamedSets = "named_sets";
+
+int dimension_of(SetKind kind) {
+  return kind == SetKind::Region ? 3 : kind == SetKind::Curve ? 1 : 2;
+}
 
 class VtkConverter {
  public:
@@ -177,6 +186,18 @@ class VtkConverter {
         file_.labels.corners.push_back(field_verts<1>(*corners, i, kCorners)[0]);
     }
     if (const VtkArray* frame = find_field("grid_frame", 4)) file_.grid_frame = frame->values;
+    if (find_field(kNamedSets, 1)) read_names();
+  }
+
+  void read_names() {
+    SetNames names;
+    for (const auto& [name, array] : grid_.field_data) {
+      if (array.values.size() != 2 || name == kNamedSets) continue;
+      const std::int32_t number = integer_at(&array, 0), dimension = integer_at(&array, 1);
+      for (SetKind kind : {SetKind::Region, SetKind::Patch, SetKind::Curve})
+        if (dimension == dimension_of(kind)) names.add(kind, number, name);
+    }
+    names.apply(file_);
   }
 
   std::int32_t label_at(const VtkArray* array, std::size_t i) const {
@@ -226,6 +247,22 @@ void add_label_arrays(const BoundaryLabels& labels, VtkOutput& out) {
     for (VertId v : labels.corners) corners.ints.push_back(v.value());
     out.field_data.push_back(std::move(corners));
   }
+}
+
+/// Sets with a name of their own.
+void add_names(const SetTable& table, VtkOutput& out) {
+  std::vector<VtkOutArray> names;
+  for (const auto* sets : {&table.regions, &table.patches, &table.curves})
+    for (const NamedSet& set : *sets) {
+      if (set.number < 0 || !set.is_given) continue;
+      names.push_back(int_array(set.name.c_str(), 1));
+      names.back().ints = {set.number, dimension_of(set.kind)};
+    }
+  if (names.empty()) return;
+  VtkOutArray count = int_array(kNamedSets, 1);
+  count.ints = {static_cast<std::int32_t>(names.size())};
+  out.field_data.push_back(std::move(count));
+  for (VtkOutArray& name : names) out.field_data.push_back(std::move(name));
 }
 
 /// Our local order of all kinds is that of VTK.
@@ -281,13 +318,22 @@ void add_cell_fields(const HexMesh& mesh, const WriteHexOptions& options, VtkOut
 
 }  // namespace
 
+/// Letters that neither XML nor the legacy format's words would have to escape.
+NameRules vtk_names() {
+  NameRules rules;
+  rules.is_allowed = is_word_letter_or_mark;
+  rules.reserved = {kQuads, kQuadPatch, kEdges, kEdgeCurve, kCorners, kNamedSets, "grid_frame"};
+  return rules;
+}
+
 VolumeFile to_volume_file(VtkGrid&& grid, const std::string& file_name) {
   return VtkConverter(std::move(grid), file_name).run();
 }
 
 /// The same content for the legacy and the XML format. `feature` on the points is for looking at;
 /// what is read back are the field arrays.
-VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options) {
+VtkOutput make_vtk_output(const HexMesh& mesh, const SetTable& table,
+                          const WriteHexOptions& options) {
   VtkOutput out;
   out.connectivity.reserve(8 * mesh.num_hexes());
   out.ends.reserve(mesh.num_hexes());
@@ -303,6 +349,7 @@ VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options) {
     out.point_data.push_back(std::move(feature));
   }
   add_label_arrays(labels, out);
+  add_names(table, out);
   return out;
 }
 

@@ -59,7 +59,8 @@ struct VtkOutput {
   std::vector<VtkOutArray> point_data;
   std::vector<VtkOutArray> field_data;
 };
-VtkOutput make_vtk_output(const HexMesh& mesh, const WriteHexOptions& options);
+VtkOutput make_vtk_output(const HexMesh& mesh, const SetTable& table,
+                          const WriteHexOptions& options);
 std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data);
 
 }  // namespace hexwright::io

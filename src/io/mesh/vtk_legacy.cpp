@@ -342,8 +342,9 @@ VolumeFile read_vtk_legacy(const VolumeSource& source) {
 
 /// Version 4.2, which every reader takes; 64-bit offsets of version 5 would gain
 /// nothing below 2^31 entries.
-std::string vtk_legacy_bytes(const HexMesh& mesh, const WriteHexOptions& options) {
-  const VtkOutput data = make_vtk_output(mesh, options);
+std::string vtk_legacy_bytes(const HexMesh& mesh, const SetTable& table,
+                             const WriteHexOptions& options) {
+  const VtkOutput data = make_vtk_output(mesh, table, options);
   const std::size_t num_cells = data.types.size();
   TextWriter out;
   out.text("# vtk DataFile Version 4.2\nhexwright\nBINARY\nDATASET UNSTRUCTURED_GRID\n");

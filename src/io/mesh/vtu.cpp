@@ -100,8 +100,8 @@ VolumeFile read_vtu(const VolumeSource& source) {
   return to_volume_file(VtuReader(source).run(), source.name);
 }
 
-std::string vtu_bytes(const HexMesh& mesh, const WriteHexOptions& options) {
-  return vtu_bytes(mesh.positions, make_vtk_output(mesh, options));
+std::string vtu_bytes(const HexMesh& mesh, const SetTable& table, const WriteHexOptions& options) {
+  return vtu_bytes(mesh.positions, make_vtk_output(mesh, table, options));
 }
 
 std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data) {

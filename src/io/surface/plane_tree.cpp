@@ -13,7 +13,7 @@ struct HalfPlane {
 
 HalfPlane half_plane(const PlanePoint& p, const PlanePoint& q) {
   const double du = q.u - p.u, dv = q.v - p.v;
-  const double length = std::hypot(du, dv);
+  const double length = std::sqrt(du * du + dv * dv);  // std::hypot would ask for glibc 2.35
   if (!(length > 0)) return {};  // keeps everything
   const double a = -dv / length, b = du / length;
   return {a, b, -(a * p.u + b * p.v)};

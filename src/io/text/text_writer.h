@@ -32,6 +32,24 @@ class TextWriter {
     out_.append(buffer, result.ptr);
     return *this;
   }
+  /// Scientific form with a point, in exactly `width` characters, with as many digits as fit.
+  TextWriter& real_in(std::size_t width, double value) {
+    char buffer[48];
+    std::to_chars_result result{};
+    for (int digits = 16; digits >= 1; --digits) {
+      result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific,
+                             digits);
+      if (static_cast<std::size_t>(result.ptr - buffer) <= width) break;
+    }
+    return padded(width, {buffer, result.ptr});
+  }
+  /// Right-aligned; wider where the number does not fit.
+  template <class Integer>
+  TextWriter& integer_in(std::size_t width, Integer value) {
+    char buffer[32];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return padded(width, {buffer, result.ptr});
+  }
   TextWriter& point(const Vec3& p) { return real(p.x).text(" ").real(p.y).text(" ").real(p.z); }
   /// Ids, separated by blanks, plus `base`.
   template <class Ids>
@@ -52,13 +70,21 @@ class TextWriter {
   std::string take() { return std::move(out_); }
 
  private:
+  TextWriter& padded(std::size_t width, std::string_view words) {
+    if (words.size() < width) out_.append(width - words.size(), ' ');
+    out_ += words;
+    return *this;
+  }
+
   template <class Number>
   TextWriter& number(Number value) {
     char buffer[32];
     const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-    out_.append(buffer, result.ptr);
+    append({buffer, result.ptr});
     return *this;
   }
+  /// Not inlined: GCC 12 warns wrongly of overlaps where it knows the number.
+  [[gnu::noinline]] void append(std::string_view words) { out_.append(words); }
 
   std::string out_;
 };

@@ -1,0 +1,37 @@
+// What each stage is asked for: the wishes of a run, put in terms of the surface at hand.
+#pragma once
+
+#include <limits>
+
+#include "hexwright/pipeline/mesh_surface.h"
+
+namespace hexwright {
+
+/// Where the loop ends though something is missed. Counts, not seconds, so that results do not
+/// depend on the machine.
+struct Budgets {
+  std::size_t background = std::numeric_limits<std::size_t>::max();  ///< hexes of one background
+  std::size_t rounds = std::numeric_limits<std::size_t>::max();      ///< of all rounds' backgrounds
+  /// Cells of the next grid over those of the last, from a valid mesh within the gate.
+  double growth = std::numeric_limits<double>::infinity();
+};
+
+/// Options of the stages as they run, in the target's coordinates.
+struct StagePlan {
+  SizingOptions sizing;
+  CompleteOptions complete;
+  EvenOptions even;
+  DualOptions dual;
+  FitOptions fit;
+  JudgeOptions judge;
+  Budgets budgets;
+};
+
+/// Pure: the same wishes and target give the same plan.
+StagePlan plan(const MeshOptions& wishes, const Target& target);
+
+/// What a target is asked for. With the background meshed as well it stays as given, because the
+/// box around it would turn.
+TargetOptions plan_target(const MeshOptions& wishes);
+
+}  // namespace hexwright

@@ -1,0 +1,44 @@
+"""Adaptive all-hexahedral meshing: a surface in, a verified hex mesh out.
+
+>>> import hexwright as hw
+>>> mesh = hw.mesh("part.stl")        # doctest: +SKIP
+>>> mesh.save("part.vtu")             # doctest: +SKIP
+"""
+from ._core import version as __version__
+from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, InvalidMesh, OutOfResources
+from ._grid import Grid, read_grid
+from ._inputs import Surface, TetMesh, read_surface
+from ._mesh import Facets, HexMesh, read
+from ._options import Option, options
+from ._stages import Verdict, check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
+
+__all__ = [
+    "BadGeometry",
+    "BadInput",
+    "Cancelled",
+    "Facets",
+    "Grid",
+    "HexMesh",
+    "HexwrightError",
+    "HexwrightWarning",
+    "InvalidMesh",
+    "Option",
+    "OutOfResources",
+    "Surface",
+    "TetMesh",
+    "Verdict",
+    "__version__",
+    "check",
+    "complete",
+    "dual",
+    "evaluate",
+    "fit",
+    "grid",
+    "improve",
+    "mesh",
+    "options",
+    "polycube",
+    "read",
+    "read_grid",
+    "read_surface",
+]

@@ -1,0 +1,53 @@
+"""What can go wrong, as exceptions. Messages name the place and the remedy."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._mesh import HexMesh
+
+
+class HexwrightError(Exception):
+    """Of all errors of this package.
+
+    Attributes
+    ----------
+    where : str
+        The file and line, the argument or the option that the message is about; empty when there is none.
+    """
+
+    where: str = ""
+
+
+class BadInput(HexwrightError, ValueError):
+    """An argument, an option or a file is not what it must be."""
+
+
+class BadGeometry(HexwrightError, ValueError):
+    """The input is well formed but cannot be meshed: empty, flat, not overlapping."""
+
+
+class OutOfResources(HexwrightError, MemoryError):
+    """A budget of cells or hexes, or the memory, does not suffice."""
+
+
+class Cancelled(HexwrightError):
+    """``progress`` returned False."""
+
+
+class InvalidMesh(HexwrightError):
+    """With ``strict=True``: the mesh was made but misses the gate.
+
+    Attributes
+    ----------
+    mesh : HexMesh
+        The mesh all the same: to look at it is the way to see why.
+    """
+
+    def __init__(self, mesh: HexMesh):
+        super().__init__("; ".join(mesh.failures))
+        self.mesh = mesh
+
+
+class HexwrightWarning(UserWarning):
+    """A mesh was made but misses the gate; its ``failures`` say why."""

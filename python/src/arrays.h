@@ -1,0 +1,69 @@
+// Numpy arrays in: any integer or float type, any strides, copied once. Numpy views out: read-only
+// and without a copy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include "hexwright/base/vec3.h"
+
+namespace hexwright::python {
+
+namespace nb = nanobind;
+
+/// An array of any type that lies in memory, as it was given.
+using AnyArray = nb::ndarray<nb::ro, nb::device::cpu>;
+
+/// Rows of three coordinates. `name` is that of the argument, for messages. Throws
+/// Error{BadArgument} for other shapes and types, and naming the first row that is not finite.
+std::vector<Vec3> to_points(const AnyArray& array, const std::string& name);
+
+/// Numbers of an array of `columns` columns (0: an array of one dimension), row by row, each from
+/// `least` up to below `limit`. Throws Error{BadArgument} naming the first that is not.
+struct IndexRange {
+  std::int64_t least = 0, limit = 0;
+  std::string of;  ///< what they are, for messages: "the 8 points"
+};
+std::vector<std::int32_t> to_indices(const AnyArray& array, std::size_t columns,
+                                     const IndexRange& range, const std::string& name);
+
+/// One finite number per element.
+std::vector<double> to_numbers(const AnyArray& array, std::size_t count, const std::string& name);
+
+/// A view of memory that `owner` keeps. Strides count elements; 0 = packed rows.
+template <class T>
+nb::object view_rows(const T* data, std::size_t rows, std::size_t columns, nb::handle owner,
+                     std::size_t row_stride = 0) {
+  static const T kNothing{};
+  const std::size_t shape[2] = {rows, columns};
+  const auto stride = static_cast<std::int64_t>(row_stride == 0 ? columns : row_stride);
+  const std::int64_t strides[2] = {stride, 1};
+  return nb::cast(
+      nb::ndarray<nb::numpy, const T>(rows == 0 ? &kNothing : data, 2, shape, owner, strides),
+      nb::rv_policy::reference);
+}
+
+template <class T>
+nb::object view_values(const T* data, std::size_t count, nb::handle owner, std::size_t stride = 1) {
+  static const T kNothing{};
+  const std::size_t shape[1] = {count};
+  const std::int64_t strides[1] = {static_cast<std::int64_t>(stride)};
+  return nb::cast(
+      nb::ndarray<nb::numpy, const T>(count == 0 ? &kNothing : data, 1, shape, owner, strides),
+      nb::rv_policy::reference);
+}
+
+/// An array of its own that takes the vector.
+template <class T>
+nb::object give_values(std::vector<T>&& values) {
+  auto* held = new std::vector<T>(std::move(values));
+  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  return view_values(held->data(), held->size(), owner);
+}
+
+}  // namespace hexwright::python

@@ -1,0 +1,228 @@
+// Hex meshes: views of their arrays, their labelled parts, quality and files.
+#include <algorithm>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+#include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_table.h"
+#include "hexwright/quality/hex_quality.h"
+#include "hexwright/render/picture.h"
+#include "hexwright/render/view_page.h"
+
+#include "arrays.h"
+#include "binders.h"
+#include "facets.h"
+
+namespace hexwright::python {
+namespace {
+
+using namespace nb::literals;
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<VertId, 8>) == 32,
+              "views take them for rows of numbers");
+
+HexMesh make_mesh(const AnyArray& points, const AnyArray& hexes,
+                  const std::optional<AnyArray>& regions) {
+  HexMesh mesh;
+  mesh.positions = IdVector<VertId, Vec3>(to_points(points, "points"));
+  const std::string of = "the " + std::to_string(mesh.num_verts()) + " points";
+  const auto flat =
+      to_indices(hexes, 8, {0, static_cast<std::int64_t>(mesh.num_verts()), of}, "hexes");
+  mesh.hexes.resize(flat.size() / 8);
+  for (std::size_t i = 0; i < flat.size(); ++i) mesh.hexes.raw()[i / 8][i % 8] = VertId(flat[i]);
+  if (regions) {
+    mesh.region = IdVector<HexId, std::int32_t>(
+        to_indices(*regions, 0, {INT32_MIN, INT32_MAX, "the 32-bit tags"}, "regions"));
+    if (mesh.region.size() != mesh.num_hexes())
+      throw Error(ErrorCode::BadArgument,
+                  std::to_string(mesh.region.size()) + " tags for " +
+                      std::to_string(mesh.num_hexes()) + " hexes",
+                  "regions");
+  }
+  return mesh;
+}
+
+const HexMesh& mesh_of(nb::handle self) { return nb::cast<const HexMesh&>(self); }
+
+nb::object points_of(nb::handle self) {
+  const auto& points = mesh_of(self).positions.raw();
+  return view_rows(reinterpret_cast<const double*>(points.data()), points.size(), 3, self);
+}
+
+nb::object hexes_of(nb::handle self) {
+  const auto& hexes = mesh_of(self).hexes.raw();
+  return view_rows(reinterpret_cast<const std::int32_t*>(hexes.data()), hexes.size(), 8, self);
+}
+
+/// A mesh without tags has the tag 0 everywhere: one number, seen as often as there are hexes.
+nb::object regions_of(nb::handle self) {
+  static const std::int32_t kZero = 0;
+  const HexMesh& mesh = mesh_of(self);
+  if (mesh.region.empty()) return view_values(&kZero, mesh.num_hexes(), self, 0);
+  return view_values(mesh.region.raw().data(), mesh.num_hexes(), self);
+}
+
+nb::object corners_of(nb::handle self) {
+  const auto& corners = mesh_of(self).labels.corners;
+  return view_values(reinterpret_cast<const std::int32_t*>(corners.data()), corners.size(), self);
+}
+
+std::vector<double> measure(const HexMesh& mesh, const std::string& name) {
+  if (name == "scaled_jacobian") return compute_scaled_jacobians(mesh).raw();
+  std::vector<double> values(mesh.num_hexes());
+  if (name == "volume")
+    parallel_for(values.size(),
+                 [&](std::size_t i) { values[i] = hex_volume(mesh.corners(HexId(i))); });
+  else if (name == "positivity")
+    parallel_for(values.size(), [&](std::size_t i) {
+      const Positivity p = check_positivity(mesh.corners(HexId(i)));
+      values[i] = p == Positivity::Positive ? 1 : p == Positivity::NotPositive ? -1 : 0;
+    });
+  else
+    throw Error(ErrorCode::BadArgument,
+                "'" + name + "' is none of scaled_jacobian, volume, positivity", "quality");
+  return values;
+}
+
+nb::object quality_of(const HexMesh& mesh, const std::string& name) {
+  std::vector<double> values;
+  {
+    const nb::gil_scoped_release released;
+    values = measure(mesh, name);
+  }
+  return give_values(std::move(values));
+}
+
+using Field = std::pair<std::string, AnyArray>;
+
+/// Names of sets that the format could not take, each with what was written instead.
+std::vector<std::pair<std::string, std::string>> save(const HexMesh& mesh, const std::string& path,
+                                                      const std::vector<Field>& fields,
+                                                      const std::string& format) {
+  WriteHexOptions options;
+  options.format = format;
+  options.fields.push_back({"scaled_jacobian", {}});
+  for (const auto& [name, values] : fields)
+    options.fields.push_back({name, to_numbers(values, mesh.num_hexes(), name)});
+  const nb::gil_scoped_release released;
+  options.fields[0].values = compute_scaled_jacobians(mesh).raw();
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const ChangedName& name : write_hex_mesh(path, mesh, options).changed_names)
+    changed.emplace_back(name.given, name.written);
+  return changed;
+}
+
+/// The names that files have too: those of the mesh, or by number.
+template <class Names>
+std::vector<std::string> fill_names(const Names& names, SetKind kind, std::size_t count) {
+  std::vector<std::string> filled(count);
+  for (std::size_t k = 0; k < count; ++k)
+    filled[k] = k < names.size() && !names.raw()[k].empty()
+                    ? names.raw()[k]
+                    : default_set_name(kind, static_cast<std::int32_t>(k));
+  return filled;
+}
+
+std::string view_page(const HexMesh& mesh, const std::string& title, const TriMesh* surface) {
+  ViewOptions options;
+  options.title = title;
+  std::optional<SurfaceTree> tree;
+  if (surface) options.surface = &tree.emplace(*surface);
+  return make_view_page(mesh, options);
+}
+
+nb::tuple facets_of(nb::handle self) {
+  FacetTable table;
+  {
+    const HexMesh& mesh = mesh_of(self);
+    const nb::gil_scoped_release released;
+    table = sort_facets(mesh);
+  }
+  auto* held = new FacetTable(std::move(table));
+  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<FacetTable*>(p); });
+  return nb::make_tuple(
+      view_rows(reinterpret_cast<const std::int32_t*>(held->quads.data()), held->quads.size(), 4,
+                owner),
+      view_values(held->owner.data(), held->owner.size(), owner),
+      view_values(held->side.data(), held->side.size(), owner), held->start,
+      fill_names(mesh_of(self).labels.patch_names, SetKind::Patch, held->start.size() - 1));
+}
+
+nb::tuple curves_of(nb::handle self) {
+  auto* held = new CurveTable(sort_curves(mesh_of(self)));
+  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<CurveTable*>(p); });
+  return nb::make_tuple(
+      view_rows(reinterpret_cast<const std::int32_t*>(held->edges.data()), held->edges.size(), 2,
+                owner),
+      held->start,
+      fill_names(mesh_of(self).labels.curve_names, SetKind::Curve, held->start.size() - 1));
+}
+
+/// The same views as `hexwright picture`.
+PictureOptions make_view(const HexMesh& mesh, const std::string& cut, double at) {
+  if (cut != "auto" && cut != "none") return make_cut_view(cut[0] - 'x', at);
+  PictureOptions view = make_default_view(mesh);
+  if (cut == "none")
+    view.cut.reset();
+  else
+    view.cut->offset = at;
+  return view;
+}
+
+nb::object draw(const HexMesh& mesh, const std::string& cut, double at, int width, int height) {
+  Image image;
+  {
+    const nb::gil_scoped_release released;
+    PictureOptions view = make_view(mesh, cut, at);
+    view.width = width;
+    view.height = height;
+    image = render_hex_mesh(mesh, view);
+  }
+  return give_values(std::move(image.rgb));
+}
+
+void add_views(nb::class_<HexMesh>& type) {
+  type.def_prop_ro("points", &points_of,
+                   nb::sig("def points(self) -> numpy.typing.NDArray[numpy.float64]"))
+      .def_prop_ro("hexes", &hexes_of,
+                   nb::sig("def hexes(self) -> numpy.typing.NDArray[numpy.int32]"))
+      .def_prop_ro("regions", &regions_of,
+                   nb::sig("def regions(self) -> numpy.typing.NDArray[numpy.int32]"))
+      .def_prop_ro("corners", &corners_of,
+                   nb::sig("def corners(self) -> numpy.typing.NDArray[numpy.int32]"));
+}
+
+}  // namespace
+
+void bind_mesh(nb::module_& module) {
+  nb::class_<HexMesh> type(module, "HexMesh", "Arrays of a hex mesh.");
+  type.def(
+      "__init__",
+      [](HexMesh* self, const AnyArray& points, const AnyArray& hexes,
+         const std::optional<AnyArray>& regions) {
+        new (self) HexMesh(make_mesh(points, hexes, regions));
+      },
+      "points"_a, "hexes"_a, "regions"_a.none() = nb::none());
+  add_views(type);
+  type.def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
+  type.def("quality", &quality_of, "name"_a,
+           nb::sig("def quality(self, name: str) -> numpy.typing.NDArray[numpy.float64]"))
+      .def("save", &save, "path"_a, "fields"_a, "format"_a)
+      .def("facets", &facets_of)
+      .def("curves", &curves_of);
+  module.def("view_page", &view_page, "mesh"_a, "title"_a, "surface"_a.none(),
+             nb::call_guard<nb::gil_scoped_release>());
+  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
+             nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "
+                     "numpy.typing.NDArray[numpy.uint8]"));
+  module.def(
+      "read_mesh", [](const std::string& path) { return read_hex_mesh(path); }, "path"_a,
+      nb::call_guard<nb::gil_scoped_release>());
+}
+
+}  // namespace hexwright::python

@@ -1,0 +1,218 @@
+// Solids that overlap or touch become the surface of their union: hidden walls are no surface of
+// the object, and the curves in which parts meet are its edges.
+#include <algorithm>
+#include <numeric>
+
+#include "hexwright/geometry/surface_tree.h"
+
+#include "geometry/prepare/closed_pieces.h"
+#include "geometry/prepare/surface_clean.h"
+#include "geometry/prepare/unite_solids.h"
+#include "geometry/tree/triangle_contacts.h"
+#include "geometry/tree/triangle_math.h"
+
+namespace hexwright {
+namespace {
+
+/// Nearer than this, in the unit frame, parts touch: files in single precision leave 1e-7.
+constexpr double kContact = 1e-6;
+/// Edges shorter than this may be collapsed in a union.
+constexpr double kTolerance = 1e-9;
+
+void append(ClosedPiece& body, const ClosedPiece& cavity) {
+  const std::size_t base = body.mesh.num_verts();
+  for (const Vec3& p : cavity.mesh.positions) body.mesh.positions.push_back(p);
+  for (const auto& t : cavity.mesh.tris)
+    body.mesh.tris.push_back(
+        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+  body.tri_to_surface.insert(body.tri_to_surface.end(), cavity.tri_to_surface.begin(),
+                             cavity.tri_to_surface.end());
+  body.vert_to_surface.insert(body.vert_to_surface.end(), cavity.vert_to_surface.begin(),
+                              cavity.vert_to_surface.end());
+}
+
+bool holds(const Box3& outer, const Box3& inner) {
+  return outer.contains(inner.lo) && outer.contains(inner.hi);
+}
+
+/// The smallest of the solids around a cavity, or -1.
+int find_owner(const std::vector<ClosedPiece>& solids, const ClosedPiece& cavity) {
+  const auto c = cavity.mesh.corners(TriId(0));
+  const Vec3 point = (c[0] + c[1] + c[2]) / 3;
+  int owner = -1;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!holds(solids[i].box, cavity.box)) continue;
+    if (owner >= 0 && solids[i].volume6 >= solids[static_cast<std::size_t>(owner)].volume6)
+      continue;
+    if (SurfaceTree(solids[i].mesh).is_inside(point)) owner = static_cast<int>(i);
+  }
+  return owner;
+}
+
+/// Solids with their cavities.
+std::vector<ClosedPiece> find_bodies(const TriMesh& surface) {
+  std::vector<ClosedPiece> solids, cavities;
+  for (ClosedPiece& piece : split_closed_pieces(surface))
+    (piece.volume6 > 0 ? solids : cavities).push_back(std::move(piece));
+  if (solids.size() < 2) return {};
+  std::vector<int> owners;
+  for (const ClosedPiece& cavity : cavities) owners.push_back(find_owner(solids, cavity));
+  for (std::size_t i = 0; i < cavities.size(); ++i)
+    if (owners[i] >= 0) append(solids[static_cast<std::size_t>(owners[i])], cavities[i]);
+  return solids;
+}
+
+/// All bodies as one surface, and the body of each triangle.
+struct Assembly {
+  TriMesh mesh;
+  IdVector<TriId, int> tri_to_body;
+};
+
+Assembly assemble(const std::vector<ClosedPiece>& bodies) {
+  Assembly all;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::size_t base = all.mesh.num_verts();
+    for (const Vec3& p : bodies[b].mesh.positions) all.mesh.positions.push_back(p);
+    for (const auto& t : bodies[b].mesh.tris) {
+      all.mesh.tris.push_back(
+          {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+      all.tri_to_body.push_back(static_cast<int>(b));
+    }
+  }
+  return all;
+}
+
+/// Bodies by cluster: those that overlap (or touch, unless `overlaps_only`), directly or by others.
+/// Clusters of one are left out.
+std::vector<std::vector<std::size_t>> find_clusters(const std::vector<ClosedPiece>& bodies,
+                                                    bool overlaps_only) {
+  const Assembly all = assemble(bodies);
+  const auto meet = [&](TriId a, TriId b) {
+    if (all.tri_to_body[a] == all.tri_to_body[b]) return false;
+    const auto ca = all.mesh.corners(a), cb = all.mesh.corners(b);
+    return overlaps_only ? find_crossing(ca, cb, kContact).has_value()
+                         : are_within(ca, cb, kContact);
+  };
+  UnionFind sets(bodies.size());
+  for (const TriPair& pair : find_near_pairs(all.mesh, kContact, meet))
+    sets.unite(all.tri_to_body[pair.a], all.tri_to_body[pair.b]);
+  std::vector<std::vector<std::size_t>> clusters(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    clusters[static_cast<std::size_t>(sets.find(static_cast<int>(b)))].push_back(b);
+  std::erase_if(clusters, [](const auto& cluster) { return cluster.size() < 2; });
+  return clusters;
+}
+
+/// Plane pieces of a body's surface that have one name, each numbered by one of its triangles.
+IdVector<TriId, TriId> find_faces(const ClosedPiece& body, const WorkingSurface& surface,
+                                  const IdVector<TriId, std::int32_t>& groups) {
+  const auto group_of = [&](TriId t) {
+    const TriId source = surface.source[body.tri_to_surface[t.index()]];
+    return groups.empty() || !source.is_valid() ? -1 : groups[source];
+  };
+  const SurfaceEdges edges = compute_surface_edges(body.mesh);
+  UnionFind faces(body.mesh.num_tris());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto sides = edges.sides_of(e);
+    if (sides.size() != 2) continue;
+    const auto& [a, b] = std::array{sides[0].tri, sides[1].tri};
+    const auto corners = body.mesh.corners(a);
+    const Vec3 normal = unit_normal(corners);
+    const bool is_plane = std::ranges::all_of(body.mesh.corners(b), [&](const Vec3& p) {
+      return std::abs(dot(normal, p - corners[0])) < kTolerance;
+    });
+    if (is_plane && normal != Vec3{} && group_of(a) == group_of(b))
+      faces.unite(a.value(), b.value());
+  }
+  IdVector<TriId, TriId> tri_to_face;
+  for (TriId t : body.mesh.tris.ids()) tri_to_face.push_back(TriId(faces.find(t.value())));
+  return tri_to_face;
+}
+
+/// Vertices of a union in the surface's numbers: those of the bodies keep theirs, others are added.
+/// Where bodies meet in a point without joining, the second one there gets a vertex of its own.
+class VertNumbers {
+ public:
+  VertNumbers(const std::vector<ClosedPiece>& bodies, const std::vector<std::size_t>& cluster) {
+    for (std::size_t b : cluster)
+      for (VertId v : bodies[b].mesh.positions.ids())
+        known_.push_back({bodies[b].mesh.positions[v], bodies[b].vert_to_surface[v.index()]});
+    std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) {
+      return key(a.position) != key(b.position) ? key(a.position) < key(b.position)
+                                                : a.vert < b.vert;
+    });
+  }
+
+  VertId find(WorkingSurface& surface, const Vec3& p) {
+    const auto it = std::lower_bound(
+        known_.begin(), known_.end(), p,
+        [](const Known& a, const Vec3& position) { return key(a.position) < key(position); });
+    const bool is_known = it != known_.end() && key(it->position) == key(p);
+    if (is_known && !it->is_taken) {
+      it->is_taken = true;
+      return it->vert;
+    }
+    surface.added_from.push_back(is_known ? it->vert : VertId());
+    return surface.mesh.positions.push_back(p);
+  }
+
+ private:
+  struct Known {
+    Vec3 position;
+    VertId vert;
+    bool is_taken = false;
+  };
+  static std::array<double, 3> key(const Vec3& p) { return {p.x, p.y, p.z}; }
+  std::vector<Known> known_;
+};
+
+/// Puts the union's triangles in place of those of its bodies, which `is_kept` loses.
+void replace(WorkingSurface& surface, const std::vector<ClosedPiece>& bodies,
+             const std::vector<std::size_t>& cluster, const UnitedSurface& united,
+             std::vector<char>& is_kept) {
+  for (std::size_t b : cluster)
+    for (TriId t : bodies[b].tri_to_surface) is_kept[t.index()] = 0;
+  VertNumbers numbers(bodies, cluster);
+  IdVector<VertId, VertId> verts;
+  for (const Vec3& p : united.mesh.positions) verts.push_back(numbers.find(surface, p));
+  for (TriId t : united.mesh.tris.ids()) {
+    const auto& tri = united.mesh.tris[t];
+    const ClosedPiece& body =
+        bodies[cluster[static_cast<std::size_t>(united.tri_to_solid[t.index()])]];
+    const TriId in_surface = body.tri_to_surface[united.tri_to_face[t.index()].index()];
+    surface.mesh.tris.push_back({verts[tri[0]], verts[tri[1]], verts[tri[2]]});
+    surface.source.push_back(TriId(surface.source[in_surface]));
+    is_kept.push_back(1);
+  }
+}
+
+}  // namespace
+
+UniteReport unite_parts(WorkingSurface& surface, Parts parts,
+                        const IdVector<TriId, std::int32_t>& groups) {
+  UniteReport report;
+  if (parts == Parts::AsIs) return report;
+  const std::vector<ClosedPiece> bodies = find_bodies(surface.mesh);
+  std::vector<char> is_kept(surface.mesh.num_tris(), 1);
+  for (const auto& cluster : find_clusters(bodies, parts == Parts::Separate)) {
+    std::vector<Solid> solids;
+    for (std::size_t b : cluster)
+      solids.push_back({bodies[b].mesh, find_faces(bodies[b], surface, groups)});
+    const UnitedSurface united = unite_solids(solids, kTolerance);
+    if (united.mesh.num_tris() == 0) continue;
+    replace(surface, bodies, cluster, united, is_kept);
+    std::size_t num_results = 0;
+    for (const ClosedPiece& piece : split_closed_pieces(united.mesh))
+      num_results += piece.volume6 > 0;
+    if (num_results >= cluster.size()) {
+      report.num_apart += cluster.size();
+      continue;
+    }
+    report.num_parts += cluster.size();
+    report.num_results += num_results;
+  }
+  if (report.num_parts + report.num_apart > 0) surface.keep(is_kept);
+  return report;
+}
+
+}  // namespace hexwright

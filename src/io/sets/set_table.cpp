@@ -1,0 +1,152 @@
+// Groups labels by number, names the groups, and finds the hexes behind labelled quads.
+#include "hexwright/io/set_table.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+
+namespace hexwright {
+namespace {
+
+std::array<VertId, 4> sorted(std::array<VertId, 4> verts) {
+  std::sort(verts.begin(), verts.end());
+  return verts;
+}
+
+const std::string* find_name(const std::vector<std::string>& names, std::int32_t number) {
+  if (number < 0 || static_cast<std::size_t>(number) >= names.size()) return nullptr;
+  const std::string& name = names[static_cast<std::size_t>(number)];
+  return name.empty() ? nullptr : &name;
+}
+
+/// Elements by number; `number_of(i)` is below -1 only for regions.
+template <class NumberOf>
+std::vector<NamedSet> group(SetKind kind, std::size_t count, const std::vector<std::string>& names,
+                            NumberOf number_of) {
+  std::map<std::int32_t, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < count; ++i) groups[number_of(i)].push_back(i);
+  std::vector<NamedSet> sets;
+  for (auto& [number, members] : groups) {
+    const std::string* name = find_name(names, number);
+    sets.push_back({kind, name ? *name : default_set_name(kind, number), number, std::move(members),
+                    name != nullptr});
+  }
+  return sets;
+}
+
+/// "wall" of "wall.3"; empty when there is no number behind the last point.
+std::string group_of_name(const std::string& name) {
+  const auto point = name.rfind('.');
+  if (point == std::string::npos || point == 0 || point + 1 == name.size()) return "";
+  const bool is_number = name.find_first_not_of("0123456789", point + 1) == std::string::npos;
+  return is_number ? name.substr(0, point) : "";
+}
+
+/// Of two patches or more, when no patch has the name itself.
+std::vector<NamedSet> group_patches(const std::vector<NamedSet>& patches) {
+  std::map<std::string, std::vector<const NamedSet*>> parts;
+  for (const NamedSet& patch : patches) parts[group_of_name(patch.name)].push_back(&patch);
+  parts.erase("");
+  for (const NamedSet& patch : patches) parts.erase(patch.name);
+  std::vector<NamedSet> groups;
+  for (const auto& [name, members] : parts) {
+    if (members.size() < 2) continue;
+    NamedSet& set = groups.emplace_back(NamedSet{SetKind::PatchGroup, name, -1, {}, true});
+    for (const NamedSet* patch : members)
+      set.members.insert(set.members.end(), patch->members.begin(), patch->members.end());
+    std::sort(set.members.begin(), set.members.end());
+  }
+  return groups;
+}
+
+template <class Elements>
+void append_verts(const Elements& elements, const std::vector<std::size_t>& members,
+                  std::vector<VertId>& verts) {
+  for (std::size_t i : members)
+    verts.insert(verts.end(), elements[i].verts.begin(), elements[i].verts.end());
+}
+
+}  // namespace
+
+const NamedSet& SetTable::at(const std::vector<NamedSet>& sets, std::int32_t number) {
+  return *std::lower_bound(sets.begin(), sets.end(), number,
+                           [](const NamedSet& set, std::int32_t n) { return set.number < n; });
+}
+
+std::string default_set_name(SetKind kind, std::int32_t number) {
+  switch (kind) {
+    case SetKind::Region:  // the only kind with negative numbers of its own
+      return number < 0 ? fmt::format("REGION_MINUS_{}", -std::int64_t{number})
+                        : fmt::format("REGION_{}", number);
+    case SetKind::Corners:
+      return "CORNERS";
+    default: {
+      const char* name = kind == SetKind::Curve ? "CURVE" : "PATCH";
+      return number < 0 ? fmt::format("{}_NONE", name) : fmt::format("{}_{}", name, number);
+    }
+  }
+}
+
+SetTable make_set_table(const HexMesh& mesh) {
+  const BoundaryLabels& labels = mesh.labels;
+  SetTable table;
+  table.regions = group(SetKind::Region, mesh.num_hexes(), mesh.region_names, [&](std::size_t h) {
+    return mesh.region.empty() ? 0 : mesh.region[HexId(h)];
+  });
+  table.patches = group(SetKind::Patch, labels.quads.size(), labels.patch_names.raw(),
+                        [&](std::size_t q) { return std::max(-1, labels.quads[q].patch.value()); });
+  table.patch_groups = group_patches(table.patches);
+  table.curves = group(SetKind::Curve, labels.edges.size(), labels.curve_names.raw(),
+                       [&](std::size_t e) { return std::max(-1, labels.edges[e].curve.value()); });
+  table.corners =
+      group(SetKind::Corners, labels.corners.size(), {}, [](std::size_t) { return -1; });
+  return table;
+}
+
+std::vector<VertId> set_nodes(const HexMesh& mesh, const NamedSet& set) {
+  std::vector<VertId> verts;
+  if (set.kind == SetKind::Region)
+    for (std::size_t h : set.members)
+      verts.insert(verts.end(), mesh.hexes[HexId(h)].begin(), mesh.hexes[HexId(h)].end());
+  else if (set.kind == SetKind::Curve)
+    append_verts(mesh.labels.edges, set.members, verts);
+  else if (set.kind == SetKind::Corners)
+    for (std::size_t c : set.members) verts.push_back(mesh.labels.corners[c]);
+  else
+    append_verts(mesh.labels.quads, set.members, verts);
+  std::sort(verts.begin(), verts.end());
+  verts.erase(std::unique(verts.begin(), verts.end()), verts.end());
+  return verts;
+}
+
+std::vector<HexFace> find_quad_sides(const HexMesh& mesh) {
+  struct Face {
+    std::array<VertId, 4> key;
+    HexFace face;
+  };
+  std::vector<Face> faces(mesh.labels.quads.empty() ? 0 : 6 * mesh.num_hexes());
+  parallel_for(faces.size(), [&](std::size_t i) {
+    const HexFace face = {HexId(i / 6), static_cast<int>(i % 6)};
+    faces[i] = {sorted(face_verts(mesh, face)), face};
+  });
+  parallel_stable_sort(faces.begin(), faces.end(),
+                       [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::vector<HexFace> result;
+  for (const LabeledQuad& quad : mesh.labels.quads) {
+    const auto key = sorted(quad.verts);
+    const auto found = std::lower_bound(
+        faces.begin(), faces.end(), key,
+        [](const Face& face, const std::array<VertId, 4>& k) { return face.key < k; });
+    if (found == faces.end() || found->key != key)
+      throw Error(ErrorCode::BadArgument,
+                  "a labelled quad is no face of any hex; remove it from the labels");
+    result.push_back(found->face);
+  }
+  return result;
+}
+
+}  // namespace hexwright

@@ -1,0 +1,76 @@
+// Options that follow from others.
+#include "hexwright/pipeline/plan.h"
+
+#include <algorithm>
+
+namespace hexwright {
+namespace {
+
+DualMode dual_mode_of(Pairing pairing) {
+  return pairing == Pairing::Blocks || pairing == Pairing::Octree ? DualMode::Blocks
+                                                                  : DualMode::Sheets;
+}
+
+/// Samples lie closer than what counts as far off.
+JudgeOptions plan_judge(const MeshOptions& wishes) {
+  const double threshold = wishes.refine_threshold * wishes.sizing.tolerance;
+  JudgeOptions judge;
+  if (wishes.fit.carve.side != Side::Inside) judge.quads = JudgedQuads::Labeled;
+  judge.edge_tolerance = wishes.edge_tolerance;
+  judge.corner_tolerance = wishes.corner_tolerance;
+  judge.hot_threshold = threshold;
+  judge.spacing = std::min(judge.spacing, 1.5 * threshold);
+  return judge;
+}
+
+/// Open or overlapping surfaces leave misses that no depth of cells cures, where parts meet: the
+/// loop gets this share of its budget ...
+constexpr std::size_t kDefectiveShare = 4;
+/// ... and a round must not cost more than this factor in cells, for marks that are dense along the
+/// seams of parts would multiply the mesh. On a sound surface the next round may well need many
+/// times the cells of a coarse mesh that came within the gate by luck.
+constexpr double kMaxGrowth = 2.5;
+
+Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
+  const bool is_sound = target.expected.is_known && target.diagnosis.num_boundary_edges == 0;
+  Budgets budgets{.background = wishes.max_hexes, .rounds = wishes.max_loop_hexes};
+  if (is_sound) return budgets;
+  budgets.rounds /= kDefectiveShare;
+  budgets.growth = kMaxGrowth;
+  return budgets;
+}
+
+}  // namespace
+
+StagePlan plan(const MeshOptions& wishes, const Target& target) {
+  StagePlan plan;
+  plan.sizing = wishes.sizing;
+  plan.complete = wishes.complete;
+  plan.even = wishes.even;
+  plan.even.max_cells = std::min(wishes.even.max_cells, wishes.max_hexes);
+  if (wishes.sizing.sizing != Sizing::Deviation) plan.even.transition_cost = 0;  // the paper's
+  plan.dual.mode = dual_mode_of(wishes.complete.pairing);
+  plan.fit = wishes.fit;
+  plan.fit.tolerance = wishes.sizing.tolerance;
+  plan.judge = plan_judge(wishes);
+  plan.budgets = plan_budgets(wishes, target);
+  return plan;
+}
+
+TargetOptions plan_target(const MeshOptions& wishes) {
+  TargetOptions target = wishes.target;
+  if (wishes.fit.carve.side != Side::Inside) target.placement = Placement::AsGiven;
+  if (target.prepare.min_part < 0)  // what no cell could resolve is no part
+    target.prepare.min_part =
+        wishes.sizing.sizing == Sizing::Deviation ? wishes.sizing.tolerance : 0.0;
+  return target;
+}
+
+/// What the loop would find out by measuring has to be assumed: the criterion's full strictness.
+void use_single_pass(MeshOptions& options) {
+  options.max_rounds = 0;
+  options.sizing.deviation_factor = 1;
+  options.sizing.crease_proximity = 0.75;
+}
+
+}  // namespace hexwright

@@ -1,0 +1,248 @@
+// Solids that overlap, touch, lie in each other, or share faces, made into their union.
+#include <gtest/gtest.h>
+
+#include "hexwright/base/parallel.h"
+#include "hexwright/geometry/prepare_surface.h"
+#include "hexwright/geometry/surface_topology.h"
+
+#include "geometry/tree/triangle_contacts.h"
+#include "helpers.h"
+#include "solids.h"
+
+namespace hexwright {
+namespace {
+
+TriMesh box(const Vec3& lo, const Vec3& hi) {
+  TriMesh mesh = test::unit_cube_surface();
+  for (Vec3& p : mesh.positions)
+    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
+  return mesh;
+}
+
+/// Joined as in a file; equal positions become one vertex when `is_welded`, as STL readers do.
+TriMesh joined(const std::vector<TriMesh>& parts, bool is_welded = false) {
+  TriMesh all;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<VertId> verts;
+    for (const Vec3& p : parts[i].positions) {
+      const auto at = std::find(all.positions.begin(), all.positions.end(), p);
+      verts.push_back(is_welded && at != all.positions.end() ? VertId(at - all.positions.begin())
+                                                             : all.positions.push_back(p));
+    }
+    for (const auto& t : parts[i].tris)
+      all.tris.push_back({verts[t[0].index()], verts[t[1].index()], verts[t[2].index()]});
+    all.group.resize(all.num_tris(), static_cast<std::int32_t>(i));
+    all.group_names.push_back("part " + std::to_string(i));
+  }
+  return all;
+}
+
+TriMesh reversed(TriMesh mesh) {
+  for (auto& t : mesh.tris) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+double volume(const TriMesh& mesh) {
+  double sum = 0;
+  for (TriId t : mesh.tris.ids()) {
+    const auto c = mesh.corners(t);
+    sum += det(c[0], c[1], c[2]) / 6;
+  }
+  return sum;
+}
+
+/// A closed two-manifold of the given volume, components and genus.
+void expect_solid(const PreparedSurface& p, double expected_volume, std::size_t num_components,
+                  long genus = 0) {
+  EXPECT_FALSE(p.mesh.find_problem());
+  const SurfaceTopology topology = compute_topology(p.mesh);
+  EXPECT_TRUE(topology.is_closed_manifold());
+  EXPECT_TRUE(is_oriented_cycle(p.mesh));
+  EXPECT_EQ(topology.num_components, num_components);
+  EXPECT_EQ(topology.genus(), genus);
+  EXPECT_NEAR(volume(p.mesh), expected_volume, 1e-9 * expected_volume);
+  EXPECT_EQ(p.source_tri.size(), p.mesh.num_tris());
+}
+
+const TriMesh kPlate = box({0, 0, 0}, {10, 10, 2}), kPost = box({3, 3, -1}, {7, 7, 9});
+
+TEST(UniteParts, CrossingBoxesBecomeOne) {
+  const TriMesh input = joined({kPlate, kPost});
+  const PreparedSurface p = prepare_surface(input, {});
+  expect_solid(p, 200 + 16 * 10 - 16 * 2, 1);
+  EXPECT_EQ(p.mesh.num_verts(), 24u);  // 8 where faces cross, none inside faces
+  EXPECT_EQ(p.diagnosis.num_united_parts, 2u);
+  EXPECT_EQ(p.diagnosis.num_unions, 1u);
+  ASSERT_EQ(p.diagnosis.notes.size(), 1u);
+  EXPECT_EQ(p.diagnosis.notes[0], "2 parts that overlap or touch united into 1");
+  EXPECT_TRUE(p.diagnosis.warnings.empty());
+}
+
+TEST(UniteParts, EveryTriangleKeepsItsNameAndPlane) {
+  const TriMesh input = joined({kPlate, kPost});
+  const PreparedSurface p = prepare_surface(input, {});
+  ASSERT_EQ(p.mesh.group.size(), p.mesh.num_tris());
+  for (TriId t : p.mesh.tris.ids()) {
+    ASSERT_TRUE(p.source_tri[t].is_valid());
+    EXPECT_EQ(p.mesh.group[t], input.group[p.source_tri[t]]);
+    const auto from = input.corners(p.source_tri[t]);
+    const Vec3 n = normalized(cross(from[1] - from[0], from[2] - from[0]));
+    for (const Vec3& c : p.mesh.corners(t)) EXPECT_NEAR(dot(n, c - from[0]), 0, 1e-12);
+  }
+}
+
+TEST(UniteParts, NamesThatPartAPlaneStayApart) {
+  TriMesh input = joined({kPlate, kPost});
+  input.group_names = {"plate", "post", "mark"};
+  input.group[TriId(10)] = 2;  // half of the plate's top
+  const PreparedSurface p = prepare_surface(input, {});
+  double area = 0;
+  for (TriId t : p.mesh.tris.ids()) {
+    const auto c = p.mesh.corners(t);
+    if (p.mesh.group[t] == 2) area += norm(cross(c[1] - c[0], c[2] - c[0])) / 2;
+  }
+  EXPECT_NEAR(area, 50 - 8, 1e-9);
+}
+
+TEST(UniteParts, TouchingBoxesBecomeOneHoweverTheirVerticesAreShared) {
+  for (bool is_welded : {false, true}) {
+    expect_solid(prepare_surface(
+                     joined({box({0, 0, 0}, {2, 2, 2}), box({2, 0, 0}, {5, 2, 2})}, is_welded), {}),
+                 20, 1);
+    expect_solid(prepare_surface(
+                     joined({box({0, 0, 0}, {2, 4, 2}), box({2, 1, 0}, {5, 2, 1})}, is_welded), {}),
+                 19, 1);
+  }
+}
+
+TEST(UniteParts, CubesThatTouchAlongAnEdgeStayTwo) {
+  const TriMesh input = joined({box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1})}, true);
+  const PreparedSurface p = prepare_surface(input, {});
+  expect_solid(p, 2, 2, 0);
+  EXPECT_EQ(p.diagnosis.num_nonmanifold_edges, 0u);
+}
+
+TEST(UniteParts, ShellsThatShareTrianglesComeApart) {
+  // The small box stands inside the large one on a part of its floor: equal triangles in equal
+  // orientation, one for each.
+  TriMesh large = box({0, 0, 0}, {4, 4, 4}), small = box({1, 1, 1}, {2, 2, 5});
+  const TriMesh input = joined({large, small, small}, true);
+  const PreparedSurface p = prepare_surface(input, {});
+  expect_solid(p, 64 + 1, 1);
+}
+
+TEST(UniteParts, CavitiesStayAndWhatLiesInThemToo) {
+  const TriMesh shell = box({0, 0, 0}, {10, 10, 10}), cavity = reversed(box({2, 2, 2}, {8, 8, 8}));
+  const TriMesh core = box({4, 4, 4}, {6, 6, 6});
+  const PreparedSurface apart = prepare_surface(joined({shell, cavity, core}), {});
+  expect_solid(apart, 1000 - 216 + 8, 3);
+  EXPECT_EQ(apart.diagnosis.num_united_parts, 0u);
+  // A post on the shell leaves the cavity alone.
+  const TriMesh post = box({4, 4, 9}, {6, 6, 12});
+  expect_solid(prepare_surface(joined({shell, cavity, core, post}), {}), 1000 - 216 + 8 + 4 * 2, 3);
+  // One that reaches into it ends in it.
+  const TriMesh long_post = box({4.5, 4.5, 7}, {5.5, 5.5, 12});
+  expect_solid(prepare_surface(joined({shell, cavity, core, long_post}), {}),
+               1000 - 216 + 8 + 1 + 2, 3);
+}
+
+TEST(UniteParts, WhatDoesNotMeetStaysToTheLastTriangle) {
+  const TriMesh input = joined({box({0, 0, 0}, {1, 1, 1}), box({1.5, 0, 0}, {2, 1, 1})});
+  const PreparedSurface p = prepare_surface(input, {});
+  EXPECT_EQ(p.mesh.positions, input.positions);
+  EXPECT_EQ(p.mesh.tris, input.tris);
+  EXPECT_TRUE(p.diagnosis.notes.empty());
+}
+
+TEST(UniteParts, SeparateJoinsOverlapsOnlyAndAsIsNothing) {
+  PrepareOptions options;
+  options.parts = Parts::Separate;
+  const TriMesh touching = joined({box({0, 0, 0}, {2, 4, 2}), box({2, 1, 0}, {5, 2, 1})});
+  EXPECT_EQ(compute_topology(prepare_surface(touching, options, {}).mesh).num_components, 2u);
+  const TriMesh crossing = joined({kPlate, kPost});
+  expect_solid(prepare_surface(crossing, options, {}), 328, 1);
+  options.parts = Parts::AsIs;
+  EXPECT_EQ(prepare_surface(crossing, options, {}).mesh.tris, crossing.tris);
+}
+
+TEST(UniteParts, IsTheSameForAnyNumberOfThreads) {
+  std::vector<TriMesh> parts;
+  for (int i = 0; i < 6; ++i)
+    parts.push_back(test::cylinder_surface(0.3 * i, 1, 0.1 * i, 3 + 0.2 * i, 40));
+  const TriMesh input = joined(parts);
+  const PreparedSurface reference = prepare_surface(input, {});
+  EXPECT_EQ(reference.diagnosis.num_united_parts, 6u);
+  for (int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const PreparedSurface again = prepare_surface(input, {});
+    EXPECT_EQ(again.mesh.positions, reference.mesh.positions);
+    EXPECT_EQ(again.mesh.tris, reference.mesh.tris);
+  }
+}
+
+TEST(UniteParts, VerticesOfTheInputKeepTheirPlaces) {
+  TriMesh input = joined({kPlate, kPost});
+  for (Vec3& p : input.positions) p = p * 1e-3 + Vec3{0.1, 0.7, 1.3};
+  const PreparedSurface p = prepare_surface(input, {});
+  std::size_t num_kept = 0;
+  for (const Vec3& x : p.mesh.positions)
+    num_kept +=
+        std::find(input.positions.begin(), input.positions.end(), x) != input.positions.end();
+  EXPECT_EQ(num_kept, 16u);
+}
+
+TEST(SmallParts, AreLeftOutWithTheirPlace) {
+  const TriMesh input = joined({box({0, 0, 0}, {10, 10, 10}), box({12, 0, 0}, {12.01, 0.01, 0.01}),
+                                reversed(box({5, 5, 5}, {5.01, 5.01, 5.01}))});
+  PrepareOptions options;
+  options.min_part = 0.005;
+  const PreparedSurface p = prepare_surface(input, options, {});
+  expect_solid(p, 1000, 1);
+  EXPECT_EQ(p.diagnosis.num_small_parts, 1u);
+  EXPECT_EQ(p.diagnosis.num_small_voids, 1u);
+  ASSERT_EQ(p.diagnosis.warnings.size(), 1u);
+  EXPECT_NE(p.diagnosis.warnings[0].find("(12, 0.005, 0.005), 0.01 long"), std::string::npos)
+      << p.diagnosis.warnings[0];
+  EXPECT_EQ(prepare_surface(input, {}).mesh.num_tris(), 36u);  // all kept without the option
+  options.min_part = 0.9;                                      // never all of it
+  EXPECT_EQ(prepare_surface(input, options, {}).mesh.num_tris(), 36u);
+}
+
+TEST(TriangleContacts, CrossingNeedsDepthAndTouchingOnlyNearness) {
+  const Corners floor = {Vec3{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const Corners pin = {Vec3{1, 1, -1}, {1, 1, 1}, {1.5, 1, 1}};
+  const auto at = find_crossing(floor, pin, 1e-6);
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(at->z, 0, 1e-15);
+  Corners above = pin;
+  for (Vec3& p : above) p.z += 1 + 1e-4;
+  EXPECT_FALSE(find_crossing(floor, above, 1e-6));
+  EXPECT_FALSE(are_within(floor, above, 1e-5));
+  EXPECT_TRUE(are_within(floor, above, 1e-3));
+  // Two edges that pass each other, far from all vertices.
+  const Corners bridge = {Vec3{-3, 1, 0.01}, {5, 1, 0.01}, {1, 1, 9}};
+  EXPECT_FALSE(find_crossing(floor, bridge, 0));
+  EXPECT_TRUE(are_within(floor, bridge, 0.02));
+  EXPECT_FALSE(are_within(floor, bridge, 0.005));
+}
+
+TEST(TriangleContacts, NearPairsAreThoseOfBruteForce) {
+  const TriMesh mesh = joined(
+      {test::cylinder_surface(0, 1, 0, 2, 24), kPost, test::cylinder_surface(3, 1.5, -2, 4, 31)});
+  const auto meets = [&](TriId a, TriId b) {
+    return are_within(mesh.corners(a), mesh.corners(b), 0.1);
+  };
+  const std::vector<TriPair> found = find_near_pairs(mesh, 0.1, meets);
+  std::size_t k = 0;
+  for (TriId a : mesh.tris.ids())
+    for (TriId b : mesh.tris.ids()) {
+      if (!(a < b) || !meets(a, b)) continue;
+      ASSERT_LT(k, found.size());
+      EXPECT_TRUE(found[k].a == a && found[k].b == b);
+      ++k;
+    }
+  EXPECT_EQ(k, found.size());
+}
+
+}  // namespace
+}  // namespace hexwright

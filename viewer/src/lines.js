@@ -1,0 +1,49 @@
+// Lines of a view: curves, irregular edges, the outline of a hex, the cutting plane in the box. Each gives {segments, colors}.
+import {categoryColor, valenceColor} from './colors.js';
+import {EDGES} from './topology.js';
+
+function makeLines(count, ends, colorOf) {
+  const segments = new Float32Array(6 * count), colors = new Uint8Array(4 * count);
+  for (let i = 0; i < count; ++i) {
+    const [a, b] = ends(i), color = colorOf(i);
+    for (let k = 0; k < 3; ++k) { segments[6 * i + k] = a[k]; segments[6 * i + 3 + k] = b[k]; }
+    colors.set([color[0], color[1], color[2], 255], 4 * i);
+  }
+  return {segments, colors};
+}
+
+const pointOf = (mesh, v) => [mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]];
+
+export const curveLines = mesh => makeLines(mesh.curves ? mesh.curves.length / 2 : 0, i => [pointOf(mesh, mesh.curves[2 * i]), pointOf(mesh, mesh.curves[2 * i + 1])],
+  i => mesh.curveIds[i] === 0 ? [30, 34, 42] : categoryColor(mesh.curveIds[i] - 1).map(x => x * 0.6));
+
+/// `groups` are those shown, as `valence` and whether on the boundary: "3", "boundary 1".
+export function irregularLines(mesh, edges, groups) {
+  const shown = [];
+  edges.valence.forEach((valence, i) => { if (groups.has(groupOf(valence, edges.onBoundary[i]))) shown.push(i); });
+  return makeLines(shown.length, i => [pointOf(mesh, edges.verts[2 * shown[i]]), pointOf(mesh, edges.verts[2 * shown[i] + 1])], i => valenceColor(edges.valence[shown[i]]));
+}
+export const groupOf = (valence, onBoundary) => (onBoundary ? 'boundary ' : '') + valence;
+
+export function hexOutline(mesh, hex) {
+  const at = k => pointOf(mesh, mesh.hexes[8 * hex + k]);
+  return makeLines(12, i => [at(EDGES[i][0]), at(EDGES[i][1])], () => [225, 0, 170]);
+}
+
+/// Where the plane meets the box of the mesh.
+export function planeOutline(frame, {normal, at}) {
+  const half = frame.extent.map(x => x / frame.diagonal / 2), corner = i => half.map((x, k) => i >> k & 1 ? x : -x), points = [];
+  for (let i = 0; i < 8; ++i)
+    for (let k = 0; k < 3; ++k) {
+      if (i >> k & 1) continue;
+      const a = corner(i), b = corner(i | 1 << k), along = p => p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2] - at, s = along(a), t = along(b);
+      if (s * t > 0 || s === t) continue;
+      points.push(a.map((x, j) => x + (b[j] - x) * s / (s - t)));
+    }
+  if (points.length < 3) return makeLines(0);
+  const middle = [0, 1, 2].map(k => points.reduce((sum, p) => sum + p[k], 0) / points.length);
+  const u = points[0].map((x, k) => x - middle[k]), v = [normal[1] * u[2] - normal[2] * u[1], normal[2] * u[0] - normal[0] * u[2], normal[0] * u[1] - normal[1] * u[0]];
+  const angle = p => Math.atan2(...[v, u].map(w => w.reduce((sum, x, k) => sum + x * (p[k] - middle[k]), 0)));
+  points.sort((a, b) => angle(a) - angle(b));
+  return makeLines(points.length, i => [points[i], points[(i + 1) % points.length]], () => [31, 95, 191]);
+}
