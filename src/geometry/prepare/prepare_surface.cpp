@@ -8,6 +8,7 @@
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 
+#include "geometry/prepare/canonical_order.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/surface_groups.h"
 #include "geometry/prepare/surface_orient.h"
@@ -167,15 +168,16 @@ void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
 }
 
 /// The result in the input's coordinates, without the vertices that nothing uses.
-TriMesh compact(const WorkingSurface& work, const Similarity& frame, const TriMesh& input) {
+TriMesh compact(const WorkingSurface& work, const Similarity& frame,
+                const IdVector<VertId, Vec3>& given) {
   TriMesh out;
   IdVector<VertId, char> is_used(work.mesh.num_verts(), 0);
   for (const auto& tri : work.mesh.tris)
     for (VertId v : tri) is_used[v] = 1;
   const auto position = [&](VertId v) {
-    if (v.index() < input.num_verts()) return input.positions[v];
-    const VertId from = work.added_from[v.index() - input.num_verts()];
-    return from.is_valid() ? input.positions[from] : frame.to_world(work.mesh.positions[v]);
+    if (v.index() < given.size()) return given[v];
+    const VertId from = work.added_from[v.index() - given.size()];
+    return from.is_valid() ? given[from] : frame.to_world(work.mesh.positions[v]);
   };
   IdVector<VertId, VertId> old_to_new(work.mesh.num_verts());
   for (VertId v : work.mesh.positions.ids())
@@ -287,6 +289,8 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
     refuse("all triangles are without area; check the file's coordinates");
   check_not_flat(work.mesh);
   context.check_cancelled();
+  // Before anything breaks a tie by it, and again for what was turned and added since.
+  const auto old_to_new = put_in_canonical_order(work.mesh, work.source);
 
   const Orientation orientation = orient_surface(work.mesh, context);
   diagnosis.num_flipped_tris = orientation.num_repaired;
@@ -307,8 +311,9 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
   describe_small(small, frame, diagnosis);
   describe_union(united, diagnosis);
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);
-  result.mesh = compact(work, frame, input);
+  result.mesh = compact(work, frame, renumber(input.positions, old_to_new));
   result.source_tri = std::move(work.source);
+  put_in_canonical_order(result.mesh, result.source_tri);
   carry_groups(input, result);
   return result;
 }
