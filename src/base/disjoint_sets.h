@@ -1,4 +1,4 @@
-// Disjoint sets over 0 .. size-1, by union with path halving.
+// Disjoint sets over 0 .. size-1, by union with path halving: the only ones of the project.
 //
 // Based on: Tarjan, van Leeuwen, "Worst-case analysis of set union algorithms", Journal of the ACM
 // 31(2), 1984. Differs: the least member represents its set instead of the root of the higher tree,
@@ -18,6 +18,17 @@ class BasicDisjointSets {
  public:
   explicit BasicDisjointSets(std::size_t size) : parent_(size), count_(size) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+
+  /// A new member, alone in its set; returns its number.
+  Index add() {
+    parent_.push_back(static_cast<Index>(parent_.size()));
+    ++count_;
+    return parent_.back();
+  }
+  void clear() {
+    parent_.clear();
+    count_ = 0;
   }
 
   /// The least member of i's set. Shortens paths, hence not const.

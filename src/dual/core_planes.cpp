@@ -4,7 +4,8 @@
 #include "dual/core_planes.h"
 
 #include <bit>
-#include <numeric>
+
+#include "base/disjoint_sets.h"
 
 namespace hexwright::dual {
 
@@ -13,17 +14,13 @@ namespace {
 // Clusters of groups whose nodes share at least a vertex.
 class Clusters {
  public:
-  explicit Clusters(const SplitNodes& nodes) : parent_(nodes.num_groups()) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  explicit Clusters(const SplitNodes& nodes) : sets_(nodes.num_groups()) {
     for (std::size_t g = 0; g < nodes.num_groups(); ++g)
       for (int code = 14; code < 27; ++code)  // one of each pair of opposite offsets
         join_across(nodes, g, {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1});
   }
 
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
+  std::size_t root(std::size_t i) { return sets_.find(i); }
 
  private:
   // All children at a side of their parent touch its middle, and those at an edge the edge's
@@ -42,13 +39,10 @@ class Clusters {
     const std::int32_t other = nodes.find_group(parent);
     if (other < 0) return;
     const auto o = static_cast<std::size_t>(other);
-    if (nodes.groups()[o].children & there) {
-      const std::size_t x = root(g), y = root(o);
-      parent_[std::max(x, y)] = std::min(x, y);
-    }
+    if (nodes.groups()[o].children & there) sets_.unite(g, o);
   }
 
-  std::vector<std::size_t> parent_;
+  DisjointSets sets_;
 };
 
 // What a parity costs on one axis.

@@ -3,10 +3,10 @@
 //
 // Based on: docs/algorithms/dual.md, "The base mesh".
 #include <algorithm>
-#include <numeric>
 
 #include "hexwright/base/error.h"
 
+#include "base/disjoint_sets.h"
 #include "dual/base_mesh.h"
 #include "dual/crease_modes.h"
 
@@ -21,11 +21,12 @@ using Piece = std::size_t;
 class GeneralBase {
  public:
   GeneralBase(const Domain& domain, HexComplex& complex)
-      : domain_(domain), complex_(complex), stars_(collect_octant_stars(domain)) {
-    parent_.resize(27 * domain.num_cell_indices());
-    std::iota(parent_.begin(), parent_.end(), Piece{0});
-    is_pinned_.assign(parent_.size(), 0);
-  }
+      : domain_(domain),
+        complex_(complex),
+        stars_(collect_octant_stars(domain)),
+        num_pieces_(27 * domain.num_cell_indices()),
+        pieces_(num_pieces_),
+        is_pinned_(num_pieces_, 0) {}
 
   BaseStatus run() {
     const auto wrapped = find_wrapped_creases(stars_);
@@ -55,16 +56,6 @@ class GeneralBase {
     for (int a = 0; a < 3; ++a)
       if (mask >> a & 1) code += (octant >> a & 1) ? -kStride[a] : kStride[a];
     return 27 * domain_.cell_index(cell_of(star, octant)) + static_cast<std::size_t>(code);
-  }
-
-  Piece root(Piece p) {
-    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
-    return p;
-  }
-  void unify(Piece a, Piece b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
   }
 
   template <class PieceOfBits>
@@ -101,8 +92,8 @@ class GeneralBase {
     }
     const int w = std::countr_zero(static_cast<unsigned>(wrapped)) / 2;
     const int b = 1 << (w + 1) % 3, d = 1 << (w + 2) % 3;
-    unify(piece(star, q, b), piece(star, q, d));
-    unify(piece(star, q, 7 ^ b), piece(star, q, 7 ^ d));
+    pieces_.unite(piece(star, q, b), piece(star, q, d));
+    pieces_.unite(piece(star, q, 7 ^ b), piece(star, q, 7 ^ d));
   }
 
   // Two octants: a quarter hex along the crease.
@@ -150,9 +141,9 @@ class GeneralBase {
       if (!star.has(q)) continue;
       const Piece corner = piece(star, q, 7);
       for (int a = 0; a < 3; ++a) {
-        if (!star.has(q ^ 1 << a)) unify(corner, piece(star, q, 1 << a));
+        if (!star.has(q ^ 1 << a)) pieces_.unite(corner, piece(star, q, 1 << a));
         if (star.num_around_edge(a, q >> a & 1) == 3 && star.is_middle(q, a))
-          unify(corner, piece(star, q, 7 ^ 1 << a));
+          pieces_.unite(corner, piece(star, q, 7 ^ 1 << a));
       }
     }
     for (int e = 0; e < 6; ++e) {
@@ -167,14 +158,14 @@ class GeneralBase {
   // The boundary planes of every class of pieces. False when a class lies on two parallel planes.
   // A cell's corner brings its planes only where it is pinned or alone.
   bool collect_planes() {
-    planes_.assign(parent_.size(), {kNone, kNone, kNone});
+    planes_.assign(num_pieces_, {kNone, kNone, kNone});
     bool is_thick = true;
     for (const bool is_lone_pass : {false, true})
       for (const LatticeCoord& cell : domain_.roots())
         for (std::size_t code = 0; code < 27; ++code) {
           const Piece p = 27 * domain_.cell_index(cell) + code;
           const bool is_corner = code % 3 != 1 && code / 3 % 3 != 1 && code / 9 != 1;
-          Planes& planes = planes_[root(p)];
+          Planes& planes = planes_[pieces_.find(p)];
           const bool is_lone = is_corner && !is_pinned_[p];
           if (is_lone != is_lone_pass) continue;
           if (is_lone && planes != Planes{kNone, kNone, kNone}) continue;
@@ -197,14 +188,14 @@ class GeneralBase {
   }
 
   void number_verts() {
-    std::vector<std::int32_t> vert_of(parent_.size(), -1);
+    std::vector<std::int32_t> vert_of(num_pieces_, -1);
     for (const BaseHex& base : hexes_) {
       const HexId h = complex_.add_hex();
       LatticeCoord place = base.vert;
       for (int a = 0; a < 3; ++a) place[a] *= domain_.root_edge();
       complex_.places[h] = HexPlace::lattice(place);
       for (int bits = 0; bits < 8; ++bits) {
-        std::int32_t& v = vert_of[root(base.pieces[bits])];
+        std::int32_t& v = vert_of[pieces_.find(base.pieces[bits])];
         if (v < 0) v = complex_.add_vert().value();
         complex_.verts[h][kHexVertexOfBits[bits]] = VertId(v);
       }
@@ -250,7 +241,7 @@ class GeneralBase {
       bool is_common = true;
       for (int lv : kHexFaces[lf]) {
         const Piece p = hexes_[h.index()].pieces[kHexBitsOfVertex[lv]];
-        is_common &= planes_[root(p)][a] == place[a];
+        is_common &= planes_[pieces_.find(p)][a] == place[a];
       }
       if (!is_common) continue;
       complex_.links[h][lf] = FaceLink::to_plane(complex_.find_or_add_plane({a, place[a]}));
@@ -272,7 +263,8 @@ class GeneralBase {
   const Domain& domain_;
   HexComplex& complex_;
   std::vector<OctantStar> stars_;
-  std::vector<Piece> parent_;    // union-find
+  std::size_t num_pieces_;
+  DisjointSets pieces_;
   std::vector<char> is_pinned_;  // corners that lie on their three planes
   std::vector<Planes> planes_;   // per class
   std::vector<BaseHex> hexes_;

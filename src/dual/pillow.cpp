@@ -76,25 +76,26 @@ void PillowInserter::split_vert(VertId v, HexId start) {
   const int count = static_cast<int>(star_.size());
   int keeper = -1;
   for (int i = 0; i < count && keeper < 0; ++i)
-    if (!is_inside(star_[i].hex)) keeper = root(i);
+    if (!is_inside(star_[i].hex)) keeper = parts_.find(i);
   HEXWRIGHT_ASSERT(keeper >= 0);
   for (int r = 0; r < count; ++r) {
-    if (root(r) != r || r == keeper) continue;
+    if (parts_.find(r) != r || r == keeper) continue;
     const VertId copy = complex_.add_vert();
     for (int i = r; i < count; ++i)
-      if (root(i) == r) changes_.push_back({star_[i].hex, star_[i].lv, copy});
+      if (parts_.find(i) == r) changes_.push_back({star_[i].hex, star_[i].lv, copy});
   }
 }
 
 // All corners at v, found by crossing faces; corners of the same side that share a face are joined.
 void PillowInserter::gather_star(VertId v, HexId start) {
   star_.clear();
+  parts_.clear();
   const auto visit = [&](HexId h, int lv) {
     const int slot = slot_[h.index()];
     if (slot < static_cast<int>(star_.size()) && star_[slot].hex == h) return slot;
     slot_[h.index()] = static_cast<std::int32_t>(star_.size());
-    star_.push_back({h, lv, static_cast<int>(star_.size())});
-    return static_cast<int>(star_.size()) - 1;
+    star_.push_back({h, lv});
+    return parts_.add();
   };
   int start_lv = 0;
   while (complex_.verts[start][start_lv] != v) ++start_lv;
@@ -105,7 +106,7 @@ void PillowInserter::gather_star(VertId v, HexId start) {
       if (link.is_plane()) continue;
       const int lv = find_local_vert(complex_.verts[link.hex()], link.lf(), v);
       const int j = visit(link.hex(), lv);
-      if (is_inside(star_[i].hex) == is_inside(link.hex())) join(i, j);
+      if (is_inside(star_[i].hex) == is_inside(link.hex())) parts_.unite(i, j);
     }
 }
 
@@ -113,7 +114,8 @@ void PillowInserter::gather_star(VertId v, HexId start) {
 void PillowInserter::join_outer_across_edges() {
   const int count = static_cast<int>(star_.size());
   int num_outer_parts = 0;
-  for (int i = 0; i < count; ++i) num_outer_parts += !is_inside(star_[i].hex) && root(i) == i;
+  for (int i = 0; i < count; ++i)
+    num_outer_parts += !is_inside(star_[i].hex) && parts_.find(i) == i;
   if (num_outer_parts < 2) return;
   const auto edge_end = [&](int i, int k) {
     return complex_.verts[star_[i].hex][kHexCornerNeighbors[star_[i].lv][k]];
@@ -122,20 +124,8 @@ void PillowInserter::join_outer_across_edges() {
     for (int j = 0; j < i; ++j) {
       if (is_inside(star_[i].hex) || is_inside(star_[j].hex)) continue;
       for (int k = 0; k < 9; ++k)
-        if (edge_end(i, k / 3) == edge_end(j, k % 3)) join(i, j);
+        if (edge_end(i, k / 3) == edge_end(j, k % 3)) parts_.unite(i, j);
     }
-}
-
-int PillowInserter::root(int i) {
-  while (star_[i].parent != i) i = star_[i].parent = star_[star_[i].parent].parent;
-  return i;
-}
-
-void PillowInserter::join(int a, int b) {
-  a = root(a);
-  b = root(b);
-  if (a < b) star_[b].parent = a;
-  if (b < a) star_[a].parent = b;
 }
 
 void PillowInserter::link_layer() {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "dual/hex_complex.h"
 
 namespace hexwright::dual {
@@ -35,7 +36,6 @@ class PillowInserter {
   struct Corner {
     HexId hex;
     int lv;
-    int parent;  // union-find over the star
   };
   struct CornerChange {
     HexId hex;
@@ -49,8 +49,6 @@ class PillowInserter {
   void split_vert(VertId v, HexId start);
   void gather_star(VertId v, HexId start);
   void join_outer_across_edges();
-  void join(int a, int b);
-  int root(int i);
   void link_layer();
   void link_side(HexId layer_hex, const InterfaceFace& face, int k);
 
@@ -62,6 +60,7 @@ class PillowInserter {
   std::vector<VertId> done_verts_;
   std::vector<InterfaceFace> interface_;
   std::vector<Corner> star_;
+  BasicDisjointSets<int> parts_{0};  // of the star
   std::vector<CornerChange> changes_;
 };
 

@@ -180,6 +180,9 @@ Json describe_rounds(const MeshResult& r) {
                       {"avg_scaled_jacobian", q.avg_scaled_jacobian},
                       {"components", q.num_components},
                       {"genus", q.genus},
+                      {"valid", q.is_valid},
+                      {"inverted", q.num_inverted},
+                      {"topology_met", q.is_topology_met},
                       {"marked_cells", q.num_marked},
                       {"scale", q.scale},
                       {"seconds", q.seconds}});

@@ -15,7 +15,7 @@ void count(StageRecord& stage, const std::string& name, std::size_t value) {
   stage.counts[name] = static_cast<double>(value);
 }
 
-RoundRecord make_record(const Round& round, double seconds) {
+RoundRecord make_record(const RoundInput& input, const Round& round, double seconds) {
   RoundRecord record;
   record.num_cells = round.grid.num_cells();
   record.num_background = round.dual.num_hexes;
@@ -28,6 +28,9 @@ RoundRecord make_record(const Round& round, double seconds) {
   record.avg_scaled_jacobian = round.verdict.quality.avg_scaled_jacobian;
   record.num_components = round.verdict.topology.num_components;
   record.genus = round.verdict.topology.genus();
+  record.is_valid = round.verdict.is_valid();
+  record.num_inverted = round.verdict.quality.num_inverted;
+  record.is_topology_met = has_expected_topology(input, round);
   record.seconds = seconds;
   return record;
 }
@@ -96,7 +99,7 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
         "nothing of the object was kept: its parts are thinner than the grid's cells");
   find_refinable_features(input, round);
   round.thin_misses = find_thin_misses(input, round);
-  round.record = make_record(round, clock.seconds());
+  round.record = make_record(input, round, clock.seconds());
   return round;
 }
 

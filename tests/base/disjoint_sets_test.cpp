@@ -36,5 +36,18 @@ TYPED_TEST(DisjointSetsTest, AgreeWithRelabelling) {
   }
 }
 
+TYPED_TEST(DisjointSetsTest, GrowByMembersThatStandAlone) {
+  BasicDisjointSets<TypeParam> sets(2);
+  sets.unite(TypeParam{0}, TypeParam{1});
+  EXPECT_EQ(sets.add(), TypeParam{2});
+  EXPECT_EQ(sets.find(TypeParam{2}), TypeParam{2});
+  EXPECT_EQ(sets.count(), 2u);
+  sets.unite(TypeParam{2}, TypeParam{1});
+  EXPECT_EQ(sets.find(TypeParam{2}), TypeParam{0});
+  sets.clear();
+  EXPECT_EQ(sets.count(), 0u);
+  EXPECT_EQ(sets.add(), TypeParam{0});
+}
+
 }  // namespace
 }  // namespace hexwright

@@ -36,7 +36,7 @@ double brute_hit(const std::array<Vec3, 3>& c, const Vec3& from, const Vec3& dir
   return u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : kInfinity;
 }
 
-TEST(RayScene, FirstWallIsTheNearestOfAllTriangles) {
+TEST(FirstWall, IsTheNearestOfAllTriangles) {
   std::mt19937_64 random(51);
   TriMesh soup;
   for (int t = 0; t < 300; ++t) {
@@ -45,28 +45,63 @@ TEST(RayScene, FirstWallIsTheNearestOfAllTriangles) {
     for (VertId& v : tri) v = soup.positions.push_back(at + test::random_point(random, 0.3));
     soup.tris.push_back(tri);
   }
-  const RayScene scene(soup);
+  const Similarity frame = compute_unit_frame(soup);
+  const SurfaceTree tree(to_unit(soup, frame));
   int num_hits = 0, num_clear = 0;
   for (int i = 0; i < 2000; ++i) {
     const TriId source(random() % soup.num_tris());
-    const auto c = scene.unit_surface().corners(source);
+    const auto c = tree.surface().corners(source);
     const Vec3 from = (c[0] + c[1] + c[2]) / 3, dir = normalized(test::random_point(random));
     bool is_clear = true;
     double expected = kInfinity;
     for (TriId t : soup.tris.ids())
       if (t != source)
-        expected =
-            std::min(expected, brute_hit(scene.unit_surface().corners(t), from, dir, is_clear));
+        expected = std::min(expected, brute_hit(tree.surface().corners(t), from, dir, is_clear));
     if (!is_clear) continue;
     ++num_clear;
-    const auto hit = scene.first_wall(from, source, dir);
+    const auto hit = first_wall(tree, from, source, dir);
     ASSERT_EQ(hit.has_value(), expected < kInfinity) << "ray " << i;
     if (!hit) continue;
     ++num_hits;
-    EXPECT_NEAR(hit->length, scene.frame().length_to_world(expected), 5e-5) << "ray " << i;
+    EXPECT_NEAR(hit->length, expected, 1e-9) << "ray " << i;
   }
   EXPECT_GT(num_clear, 1000);
   EXPECT_GT(num_hits, 300);
+}
+
+// Rays at the edges and vertices of a closed surface, where rounding would let some slip through.
+TEST(FirstWall, NoRayLeavesAClosedSurfaceThroughItsEdges) {
+  for (const TriMesh& surface : {test::unit_cube_surface(), test::unit_sphere_surface(3)}) {
+    const SurfaceTree tree(surface);
+    const Vec3 from = tree.box().center() + Vec3{0.03, 0.01, 0.02};
+    int num_rays = 0;
+    for (TriId t : surface.tris.ids()) {
+      const auto c = surface.corners(t);
+      for (std::size_t k = 0; k < 3; ++k)
+        for (double along : {0.0, 0.25, 0.5, 0.9}) {
+          const Vec3 at = c[k] + (c[(k + 1) % 3] - c[k]) * along;
+          const auto hit =
+              tree.first_hit(from, normalized(at - from), [](const RayHit&) { return true; });
+          ASSERT_TRUE(hit.has_value());
+          EXPECT_NEAR(hit->length, distance(at, from), 1e-9);
+          ++num_rays;
+        }
+    }
+    EXPECT_GT(num_rays, 100);
+  }
+}
+
+TEST(FirstWall, PassesThroughItsOwnTriangleAndItsPlane) {
+  TriMesh two = test::unit_cube_surface();
+  const TriMesh once = two;
+  for (const auto& tri : once.tris) two.tris.push_back(tri);  // every wall twice
+  const SurfaceTree tree(two);
+  const auto c = two.corners(TriId(0));
+  const Vec3 from = (c[0] + c[1] + c[2]) / 3;
+  const auto hit = first_wall(tree, from, TriId(0), -tree.normal(TriId(0)));
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(hit->length, 1, 1e-12);
+  EXPECT_LT(hit->tri.index(), once.num_tris());  // of two that are equally near the first
 }
 
 // Equal parts of the cap's area hold equal numbers of rays, so their mean is the cap's centroid.

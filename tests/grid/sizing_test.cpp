@@ -40,7 +40,7 @@ TriMesh sphere(int depth) {
 FeatureGraph features_of(const TriMesh& surface) { return extract_features(surface, {}); }
 
 SizingResult build(const TriMesh& surface, const SizingOptions& options) {
-  return build_grid(surface, features_of(surface), options, {});
+  return build_grid(SurfaceTree(surface), features_of(surface), options, {});
 }
 
 /// A box of 2 x 2 x `height`.
@@ -138,7 +138,7 @@ TEST(Sizing, TheBudgetStopsAtAWholeLevelWithAMessage) {
   Context context;
   context.on_warning = [&](std::string_view m) { message = m; };
   const TriMesh surface = sphere(4);
-  const SizingResult r = build_grid(surface, features_of(surface), options, context);
+  const SizingResult r = build_grid(SurfaceTree(surface), features_of(surface), options, context);
   EXPECT_TRUE(r.hit_cell_budget);
   EXPECT_LE(r.grid.num_cells(), 3000u);
   EXPECT_NE(message.find("budget of 3000"), std::string::npos) << message;
@@ -186,7 +186,7 @@ TEST(Sizing, RejectsOptionsOutOfRange) {
   options.min_level = 5;
   options.max_level = 4;
   EXPECT_THROW(build(cube, options), Error);
-  EXPECT_THROW(build_grid({}, {}, {}, {}), Error);
+  EXPECT_THROW(build_grid(SurfaceTree(TriMesh{}), {}, {}, {}), Error);
 }
 
 TEST(PlaneSpread, IsZeroOnPlanesAndSeparatesSheets) {
@@ -194,13 +194,14 @@ TEST(PlaneSpread, IsZeroOnPlanesAndSeparatesSheets) {
   const FeatureGraph features = features_of(cube);
   SizingOptions options;
   options.wall_factor = 0;
-  const SizingScene scene = make_sizing_scene(cube, features, options, {});
+  const SurfaceTree tree(cube);
+  const SizingScene scene = make_sizing_scene(tree, features, options, {});
   std::vector<TriId> all;
   for (TriId t : cube.tris.ids()) all.push_back(t);
   // The whole cube in one node: six faces apart, each flat.
   EXPECT_NEAR(compute_plane_spread(scene, {{0.5, 0.5, 0.5}, 1.3}, all), 0, 1e-12);
   // Without creases the faces are one group and far from any plane.
-  const SizingScene smooth = make_sizing_scene(cube, {}, options, {});
+  const SizingScene smooth = make_sizing_scene(tree, {}, options, {});
   const double spread = compute_plane_spread(smooth, {{0.5, 0.5, 0.5}, 1.0}, all);
   EXPECT_GE(spread, 1 - 1e-12);
   EXPECT_LE(spread, std::sqrt(3.0) + 1e-12);

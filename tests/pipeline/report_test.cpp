@@ -24,6 +24,9 @@ TEST(Report, SaysWhatTheResultHolds) {
   EXPECT_EQ(json["hexes"], r.mesh.num_hexes());
   EXPECT_EQ(json["valid"], r.failures.empty());
   EXPECT_EQ(json["rounds"].size(), r.rounds.size());
+  EXPECT_EQ(json["rounds"].back()["valid"], r.failures.empty());
+  EXPECT_EQ(json["rounds"].back()["inverted"], 0);
+  EXPECT_EQ(json["rounds"].back()["topology_met"], true);
   EXPECT_EQ(json["cells_per_level"].size(), static_cast<std::size_t>(r.grid.finest_level) + 1);
   EXPECT_EQ(json["complete"]["cells"], r.complete.num_output_cells);
   EXPECT_EQ(json["verdict"]["quality"]["inverted"], 0);

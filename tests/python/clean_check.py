@@ -51,8 +51,7 @@ def check_libraries():
 def check_wheel():
     assert re.search(r"manylinux_2_34_\w+\.whl$", WHEEL.name), WHEEL.name
     names = zipfile.ZipFile(WHEEL).namelist()
-    if not any("embree" in name for name in names):  # the ray tracer's library alone has 44 MB
-        assert WHEEL.stat().st_size < 8e6, WHEEL.stat().st_size
+    assert WHEEL.stat().st_size < 8e6, WHEEL.stat().st_size
     assert not any(name.startswith(("include/", "lib/", "bin/")) for name in names), names
 
 

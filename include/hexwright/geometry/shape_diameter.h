@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/geometry/similarity.h"
+#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 namespace hexwright {
@@ -18,8 +20,12 @@ struct ShapeDiameterOptions {
   int num_rays = 25;                             ///< rays per sample
 };
 
-/// Shape diameter per triangle, in world units; infinity where no ray hits a facing wall (open or
-/// flipped input). Robust at any scale and position: rays are cast in normalised coordinates.
+/// Shape diameter per triangle, in the surface's units; infinity where no ray hits a facing wall
+/// (open or flipped input). The tree should be about unit size.
+IdVector<TriId, double> compute_shape_diameter(const SurfaceTree& surface,
+                                               const ShapeDiameterOptions& options,
+                                               const Context& context);
+/// One-shot for a surface of any size and position.
 IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
                                                const ShapeDiameterOptions& options,
                                                const Context& context);
@@ -31,11 +37,21 @@ struct WallSample {
   TriId tri;
   double inner = 0;  ///< least thickness of the solid here
   double outer = 0;  ///< least width of the gap outside here
+
+  void to_world(const Similarity& frame) {
+    point = frame.to_world(point);
+    inner = frame.length_to_world(inner);
+    outer = frame.length_to_world(outer);
+  }
 };
 
 /// Samples the surface every `spacing` (at least once per triangle; of more than 200,000 triangles
 /// those smaller than the spacing in turns) and measures the opposite walls: the least (length x
-/// cosine) over inward rays within 36 degrees that hit a triangle facing back (n . n' < -0.8).
+/// cosine) over inward rays within 36 degrees that hit a triangle facing back (n . n' < -0.8). The
+/// tree should be about unit size.
+std::vector<WallSample> sample_opposite_walls(const SurfaceTree& surface, double spacing,
+                                              const Context& context);
+/// One-shot for a surface of any size and position.
 std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
                                               const Context& context);
 

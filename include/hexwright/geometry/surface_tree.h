@@ -1,5 +1,5 @@
-// Closest point and generalised winding number on any triangle soup, from one bounding volume
-// hierarchy.
+// Closest point, first hit of a ray and generalised winding number on any triangle soup, from one
+// bounding volume hierarchy.
 //
 // Based on: Barill, Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds",
 // ACM TOG 37(4), 2018; Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using
@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "hexwright/base/function_ref.h"
 #include "hexwright/mesh/tri_mesh.h"
 
 namespace hexwright {
@@ -22,6 +23,12 @@ struct ClosestPoint {
   TriId tri;
   Vec3 point;
   double distance_sq = std::numeric_limits<double>::infinity();
+};
+
+/// Where a ray meets the surface.
+struct RayHit {
+  TriId tri;
+  double length = 0;  ///< from the ray's start
 };
 
 /// Restricts a closest-point query. The defaults restrict nothing.
@@ -54,6 +61,11 @@ class SurfaceTree {
   /// The nearest surface point; absent only when the filter excludes everything (or the surface is
   /// empty).
   std::optional<ClosestPoint> closest(const Vec3& p, const ClosestFilter& filter = {}) const;
+  /// The first triangle that a ray from p meets in unit direction d, of those for which `counts`
+  /// (called with what is met, in no certain order) is true. Edges and corners belong to all their
+  /// triangles, so no ray slips through between them; among equally near ones the lowest id wins.
+  std::optional<RayHit> first_hit(const Vec3& p, const Vec3& d,
+                                  FunctionRef<bool(const RayHit&)> counts) const;
   /// Distance to the surface, infinity when it is empty.
   double distance(const Vec3& p) const;
 

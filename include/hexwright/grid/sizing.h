@@ -49,10 +49,10 @@ inline constexpr const char* kSplitReasons[] = {"minimum level", "deviation", "w
 
 /// Builds the grid breadth first, so that a budget stops at a level and not in a corner.
 ///
-/// The surface should be welded (prepare_surface): groups of triangles end at unshared edges. The
-/// number of cells never falls when the tolerance does. Same result for any thread count.
-/// Errors: BadArgument (an option out of range), BadGeometry (no triangles).
-SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
+/// The surface should be welded (prepare_surface) and about unit size: groups of triangles end at
+/// unshared edges. The number of cells never falls when the tolerance does. Same result for any
+/// thread count. Errors: BadArgument (an option out of range), BadGeometry (no triangles).
+SizingResult build_grid(const SurfaceTree& surface, const FeatureGraph& features,
                         const SizingOptions& options, const Context& context);
 /// Of the target's surface and features, in the target's unit coordinates. Shares are of its
 /// diagonal, also where turning has changed the box.

@@ -61,8 +61,11 @@ struct RoundRecord {
   double min_scaled_jacobian = 0, avg_scaled_jacobian = 0;
   std::size_t num_components = 0;
   long genus = 0;
-  std::size_t num_marked = 0;  ///< leaves split for the next round
-  double scale = 1;            ///< of all cells for the next round
+  bool is_valid = false;         ///< topology valid, nothing inverted
+  std::size_t num_inverted = 0;  ///< hexes
+  bool is_topology_met = true;   ///< the surface's components and genus, where it tells them
+  std::size_t num_marked = 0;    ///< leaves split for the next round
+  double scale = 1;              ///< of all cells for the next round
   double seconds = 0;
 };
 

@@ -9,6 +9,7 @@ using Double2 = double __attribute__((vector_size(16)));
 
 inline Float4 splat(float x) { return Float4{x, x, x, x}; }
 inline Double2 splat(double x) { return Double2{x, x}; }
+inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 
 }  // namespace hexwright

@@ -51,11 +51,46 @@ Float4 box_distances(const BvhNode& node, const BoxQuery& q) {
   return sum;
 }
 
+/// A ray in the frame of the boxes, in floats, with the slack that makes every box that it enters
+/// one that it is found to enter, and not later than it does.
+struct BoxRay {
+  float p[3], inverse[3];
+  float slack;
+
+  BoxRay(const BvhFrame& frame, const Vec3& from, const Vec3& d) {
+    constexpr double kFar = 1e15;
+    constexpr double kLeast = 1e-12;  // of a component of the direction: less leads nowhere
+    double largest = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x =
+          std::clamp((from[axis] - frame.center[axis]) * frame.inverse_scale, -kFar, kFar);
+      p[axis] = static_cast<float>(x);
+      inverse[axis] = static_cast<float>(
+          1 / (std::abs(d[axis]) > kLeast ? d[axis] : std::copysign(kLeast, d[axis])));
+      largest = std::max(largest, std::abs(x));
+    }
+    slack = static_cast<float>(1e-6 * largest);
+  }
+};
+
+/// Where the ray enters the four children, at the earliest; beyond `limit` where it does not.
+Float4 box_entries(const BvhNode& node, const BoxRay& ray, float limit) {
+  Float4 enter = splat(0.0f), leave = splat(limit);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float4 p = splat(ray.p[axis]), inverse = splat(ray.inverse[axis]);
+    const Float4 a = (node.lo[axis] - splat(ray.slack) - p) * inverse;
+    const Float4 b = (node.hi[axis] + splat(ray.slack) - p) * inverse;
+    enter = max(enter, min(a, b));
+    leave = min(leave, max(a, b));
+  }
+  return enter <= leave ? enter : splat(std::numeric_limits<float>::infinity());
+}
+
 /// Nodes still to visit, nearest last.
 class VisitStack {
  public:
   struct Entry {
-    float distance_sq;
+    float distance_sq;  // of rays: where the box is entered
     std::int32_t child;
   };
   bool empty() const { return top_ == 0; }
@@ -213,6 +248,44 @@ std::optional<ClosestPoint> SurfaceTree::closest(const Vec3& p, const ClosestFil
   if (!best.is_found()) return std::nullopt;
   const Vec3 point = tree.slots[static_cast<std::size_t>(best.slot)].a + best.offset;
   return ClosestPoint{TriId(best.tri), point, best.distance_sq};
+}
+
+/// As the search for the closest point: nearest boxes first, those beyond the best hit left out.
+std::optional<RayHit> SurfaceTree::first_hit(const Vec3& p, const Vec3& d,
+                                             FunctionRef<bool(const RayHit&)> counts) const {
+  const Impl& tree = *impl_;
+  if (tree.bvh.nodes.empty()) return std::nullopt;
+  const BoxRay ray(tree.bvh.frame, p, d);
+  RayHit best{TriId(), std::numeric_limits<double>::infinity()};
+  const auto test_slot = [&](std::size_t slot) {
+    const RayHit hit{tree.bvh.slot_to_tri[slot], ray_length(tree.slots[slot], p, d)};
+    if (!(hit.length >= 0) || hit.length > best.length) return;
+    if (hit.length == best.length && best.tri.is_valid() && !(hit.tri < best.tri)) return;
+    if (counts(hit)) best = hit;
+  };
+  VisitStack stack;
+  stack.push_sorted({0, 0}, 0);
+  constexpr float kNowhere = 1e30f;
+  float limit = kNowhere;
+  while (!stack.empty()) {
+    const auto entry = stack.pop();
+    if (entry.distance_sq > limit) continue;
+    if (entry.child < 0) {
+      const auto leaf = static_cast<std::uint32_t>(~entry.child);
+      for (std::uint32_t i = 0; i < (leaf & 7); ++i) test_slot(leaf / 8 + i);
+      const double reached = best.length * tree.bvh.frame.inverse_scale;
+      limit = static_cast<float>(std::min(reached * 1.00001, static_cast<double>(kNowhere)));
+      continue;
+    }
+    const BvhNode& node = tree.bvh.nodes[static_cast<std::size_t>(entry.child)];
+    const Float4 enter = box_entries(node, ray, limit);
+    const int from = stack.size();
+    for (int k = 0; k < 4; ++k)
+      if (enter[k] <= limit && node.child[k] != ~0)
+        stack.push_sorted({enter[k], node.child[k]}, from);
+  }
+  if (!best.tri.is_valid()) return std::nullopt;
+  return best;
 }
 
 double SurfaceTree::distance(const Vec3& p) const {

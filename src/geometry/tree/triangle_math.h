@@ -58,6 +58,27 @@ inline Vec3 closest_offset(const TriangleData& t, const Vec3& ap) {
   return t.ab * (vb * inverse) + t.ac * (vc * inverse);
 }
 
+/// Length along the ray from p in direction d to the triangle, negative when it is not met. A
+/// little is added to the triangle's edges, so that rounding leaves no gap between two that share
+/// one.
+///
+/// Based on: Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
+/// Graphics Tools 2(1), 1997.
+inline double ray_length(const TriangleData& t, const Vec3& p, const Vec3& d) {
+  constexpr double kMargin = 1e-12;
+  const Vec3 h = cross(d, t.ac);
+  const double volume = dot(t.ab, h);
+  if (volume == 0) return -1;  // along the plane, or no area
+  const double inverse = 1 / volume;
+  const Vec3 s = p - t.a;
+  const double u = dot(s, h) * inverse;
+  if (!(u >= -kMargin && u <= 1 + kMargin)) return -1;
+  const Vec3 q = cross(s, t.ab);
+  const double v = dot(d, q) * inverse;
+  if (!(v >= -kMargin && u + v <= 1 + kMargin)) return -1;
+  return dot(t.ac, q) * inverse;
+}
+
 /// Sums half the solid angles of triangles a, b, c seen from the origin, each in -pi .. pi and
 /// positive when the origin is behind the triangle. Half an angle is the argument of a complex
 /// number (denominator + i numerator), and arguments add up when numbers are multiplied: one arc

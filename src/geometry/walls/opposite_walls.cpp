@@ -88,13 +88,13 @@ class SampleThinner {
 };
 
 /// Least length x cosine over the rays that meet a wall facing back.
-double least_width(const RayScene& scene, const std::vector<ConeRay>& cone, const Vec3& from,
+double least_width(const SurfaceTree& tree, const std::vector<ConeRay>& cone, const Vec3& from,
                    TriId tri, const Vec3& axis) {
   const AxisFrame frame(axis);
   double least = std::numeric_limits<double>::infinity();
   for (const ConeRay& ray : cone) {
-    const auto hit = scene.first_wall(from, tri, frame.to_world(ray.direction));
-    if (hit && dot(scene.normal(hit->tri), scene.normal(tri)) < kFacing)
+    const auto hit = first_wall(tree, from, tri, frame.to_world(ray.direction));
+    if (hit && dot(tree.normal(hit->tri), tree.normal(tri)) < kFacing)
       least = std::min(least, hit->length * ray.direction.z);
   }
   return least;
@@ -102,26 +102,23 @@ double least_width(const RayScene& scene, const std::vector<ConeRay>& cone, cons
 
 }  // namespace
 
-std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
+std::vector<WallSample> sample_opposite_walls(const SurfaceTree& tree, double spacing,
                                               const Context& context) {
   const auto watch = context.watch();
-  const RayScene scene(surface);
-  const TriMesh& unit = scene.unit_surface();
-  const double unit_spacing = scene.frame().length_to_unit(spacing);
-  if (!(unit_spacing > 0))
-    throw Error(ErrorCode::BadArgument, "the sample spacing must be positive");
-  if (estimate_samples(unit, unit_spacing) > kMaxSamples)
+  const TriMesh& surface = tree.surface();
+  if (!(spacing > 0)) throw Error(ErrorCode::BadArgument, "the sample spacing must be positive");
+  if (estimate_samples(surface, spacing) > kMaxSamples)
     throw Error(ErrorCode::OutOfResources,
                 "the sample spacing asks for more than 20 million samples; use a coarser one");
   std::vector<Vec3> points;
   std::vector<TriId> tris;
-  SampleThinner thinner(unit_spacing, unit.num_tris());
+  SampleThinner thinner(spacing, surface.num_tris());
   std::vector<Vec3> pieces;
-  for (TriId t : unit.tris.ids()) {
-    if (scene.normal(t) == Vec3{}) continue;
-    const auto c = unit.corners(t);
+  for (TriId t : surface.tris.ids()) {
+    if (tree.normal(t) == Vec3{}) continue;
+    const auto c = surface.corners(t);
     pieces.clear();
-    sample_triangle(c, unit_spacing, pieces);
+    sample_triangle(c, spacing, pieces);
     thinner.choose(pieces, norm(cross(c[1] - c[0], c[2] - c[0])) / 2, points);
     tris.resize(points.size(), t);
   }
@@ -131,12 +128,20 @@ std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spa
   parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
     context.check_cancelled();
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3& n = scene.normal(tris[i]);
-      samples[i] = {scene.frame().to_world(points[i]), tris[i],
-                    least_width(scene, cone, points[i], tris[i], -n),
-                    least_width(scene, cone, points[i], tris[i], n)};
+      const Vec3& n = tree.normal(tris[i]);
+      samples[i] = {points[i], tris[i], least_width(tree, cone, points[i], tris[i], -n),
+                    least_width(tree, cone, points[i], tris[i], n)};
     }
   });
+  return samples;
+}
+
+std::vector<WallSample> sample_opposite_walls(const TriMesh& surface, double spacing,
+                                              const Context& context) {
+  const Similarity frame = compute_unit_frame(surface);
+  auto samples = sample_opposite_walls(SurfaceTree(to_unit(surface, frame)),
+                                       frame.length_to_unit(spacing), context);
+  for (WallSample& sample : samples) sample.to_world(frame);
   return samples;
 }
 

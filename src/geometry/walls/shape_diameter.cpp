@@ -48,7 +48,7 @@ double robust_mean(std::vector<WeightedLength>& lengths) {
 
 }  // namespace
 
-IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
+IdVector<TriId, double> compute_shape_diameter(const SurfaceTree& tree,
                                                const ShapeDiameterOptions& options,
                                                const Context& context) {
   const auto watch = context.watch();
@@ -56,8 +56,7 @@ IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
       !(options.cone_angle <= std::numbers::pi))
     throw Error(ErrorCode::BadArgument,
                 "the shape diameter needs at least one ray and a cone of at most pi");
-  const RayScene scene(surface);
-  const TriMesh& unit = scene.unit_surface();
+  const TriMesh& surface = tree.surface();
   const auto cone = spread_cone(options.num_rays, options.cone_angle / 2);
   IdVector<TriId, double> diameter(surface.num_tris(), std::numeric_limits<double>::infinity());
   parallel_chunks(surface.num_tris(), 256, [&](std::size_t begin, std::size_t end) {
@@ -65,20 +64,29 @@ IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
     std::vector<WeightedLength> lengths;
     for (std::size_t i = begin; i < end; ++i) {
       const TriId t(i);
-      const Vec3 n = scene.normal(t);
+      const Vec3 n = tree.normal(t);
       if (n == Vec3{}) continue;
-      const auto c = unit.corners(t);
+      const auto c = surface.corners(t);
       const Vec3 from = (c[0] + c[1] + c[2]) / 3;
       const AxisFrame inwards(-n);
       lengths.clear();
       for (const ConeRay& ray : cone) {
-        const auto hit = scene.first_wall(from, t, inwards.to_world(ray.direction));
-        if (hit && dot(scene.normal(hit->tri), n) <= kSameSide)
+        const auto hit = first_wall(tree, from, t, inwards.to_world(ray.direction));
+        if (hit && dot(tree.normal(hit->tri), n) <= kSameSide)
           lengths.push_back({hit->length, 1 / ray.angle});
       }
       diameter[t] = robust_mean(lengths);
     }
   });
+  return diameter;
+}
+
+IdVector<TriId, double> compute_shape_diameter(const TriMesh& surface,
+                                               const ShapeDiameterOptions& options,
+                                               const Context& context) {
+  const Similarity frame = compute_unit_frame(surface);
+  auto diameter = compute_shape_diameter(SurfaceTree(to_unit(surface, frame)), options, context);
+  for (double& d : diameter) d = frame.length_to_world(d);
   return diameter;
 }
 

@@ -2,9 +2,10 @@
 #include "grid/pairing/clusters.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "hexwright/base/parallel.h"
+
+#include "base/disjoint_sets.h"
 
 namespace hexwright {
 namespace {
@@ -33,27 +34,6 @@ BrickBits first_component(BrickBits w) {
     component = grown;
   }
 }
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller root survives, so that roots are first pieces.
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    if (i < j) parent_[j] = i;
-    if (j < i) parent_[i] = j;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Splits every brick into its connected parts; a brick's number of parts goes to the entry of
 /// brick_offset after its own.
@@ -133,11 +113,11 @@ std::vector<std::vector<PiecePair>> find_links(const BrickSet& required, const C
 Clusters find_clusters(const BrickSet& required) {
   Clusters out;
   make_pieces(required, out);
-  UnionFind sets(out.pieces.size());
+  BasicDisjointSets<std::uint32_t> sets(out.pieces.size());
   for (const auto& chunk : find_links(required, out))
     for (const auto& [p, q] : chunk) sets.unite(p, q);
   for (std::uint32_t p = 0; p < out.pieces.size(); ++p) {
-    const std::uint32_t root = sets.root(p);
+    const std::uint32_t root = sets.find(p);
     out.pieces[p].cluster =
         root == p ? static_cast<std::uint32_t>(out.num_clusters++) : out.pieces[root].cluster;
   }

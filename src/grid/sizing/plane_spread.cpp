@@ -5,10 +5,9 @@
 // both sides of a crease are judged apart. Each group has its area-weighted least-squares plane,
 // from exact second moments of the pieces.
 #include <algorithm>
-#include <numeric>
 
-#include <Eigen/Eigenvalues>
-
+#include "base/disjoint_sets.h"
+#include "base/symmetric_eigen.h"
 #include "grid/sizing/box_clip.h"
 #include "grid/sizing/sizing_scene.h"
 
@@ -40,17 +39,11 @@ Pieces clip_pieces(const SizingScene& scene, const NodeCube& node, std::span<con
   return pieces;
 }
 
-std::size_t find_group(std::vector<std::size_t>& parent, std::size_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// Group of each piece: its lowest-numbered member, joined across smooth edges that run through the
 /// cube.
 std::vector<std::size_t> group_pieces(const SizingScene& scene, const NodeCube& node,
                                       const Pieces& pieces, double half) {
-  std::vector<std::size_t> parent(pieces.tris.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  DisjointSets groups(pieces.tris.size());
   for (std::size_t i = 0; i < pieces.tris.size(); ++i) {
     const TriId t = pieces.tris[i];
     for (std::size_t le = 0; le < 3; ++le) {
@@ -60,13 +53,12 @@ std::vector<std::size_t> group_pieces(const SizingScene& scene, const NodeCube& 
       if (it == pieces.tris.end() || *it != other) continue;
       const auto p = scene.surface.corners(t);
       if (!segment_meets_cube(node.to_local(p[le]), node.to_local(p[(le + 1) % 3]), half)) continue;
-      const std::size_t a = find_group(parent, i);
-      const std::size_t b = find_group(parent, static_cast<std::size_t>(it - pieces.tris.begin()));
-      parent[std::max(a, b)] = std::min(a, b);
+      groups.unite(i, static_cast<std::size_t>(it - pieces.tris.begin()));
     }
   }
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = find_group(parent, i);
-  return parent;
+  std::vector<std::size_t> group(pieces.tris.size());
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = groups.find(i);
+  return group;
 }
 
 /// Area, first and second moments of polygons about the node's centre. The moments of a triangle
@@ -95,13 +87,11 @@ struct Moments {
   /// central second moments.
   Vec3 plane_normal() const {
     const Vec3 c = centroid();
-    Eigen::Matrix3d m;
-    int entry = 0;
+    std::array<double, 6> central;
+    std::size_t entry = 0;
     for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) m(i, j) = m(j, i) = second[entry++] - area * c[i] * c[j];
-    const Eigen::Vector3d n =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(0);
-    return {n.x(), n.y(), n.z()};
+      for (int j = i; j < 3; ++j, ++entry) central[entry] = second[entry] - area * c[i] * c[j];
+    return least_eigenvector(central);
   }
 };
 

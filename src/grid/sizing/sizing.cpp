@@ -176,13 +176,13 @@ GridFrame root_frame(const Box3& box, double margin) {
   return {box.center() - Vec3{size / 2, size / 2, size / 2}, size};
 }
 
-SizingResult build_grid(const TriMesh& surface, const FeatureGraph& features,
+SizingResult build_grid(const SurfaceTree& tree, const FeatureGraph& features,
                         const SizingOptions& options, const Context& context) {
   const auto watch = context.watch();
-  check_options(surface, options);
-  const SizingScene scene = make_sizing_scene(surface, features, options, context);
+  check_options(tree.surface(), options);
+  const SizingScene scene = make_sizing_scene(tree, features, options, context);
   const Criteria criteria(scene, options);
-  const GridFrame frame = root_frame(bounding_box(surface), options.margin);
+  const GridFrame frame = root_frame(tree.box(), options.margin);
 
   SizingResult result;
   result.splits_by_reason.assign(std::size(kSplitReasons), 0);
@@ -227,7 +227,7 @@ SizingResult build_grid(const Target& target, const SizingOptions& options,
   const double turned = target.diagonal() / target.tree.box().diagonal();
   of_box.tolerance *= turned;
   of_box.min_edge *= turned;
-  return build_grid(target.surface(), target.features, of_box, context);
+  return build_grid(target.tree, target.features, of_box, context);
 }
 
 }  // namespace hexwright

@@ -73,16 +73,17 @@ std::vector<CreaseSegment> collect_crease_segments(const TriMesh& surface,
 
 }  // namespace
 
-SizingScene make_sizing_scene(const TriMesh& surface, const FeatureGraph& features,
+SizingScene make_sizing_scene(const SurfaceTree& tree, const FeatureGraph& features,
                               const SizingOptions& options, const Context& context) {
-  SizingScene scene{surface, features, bounding_box(surface).diagonal(), {}, {}, {}, {}};
+  const TriMesh& surface = tree.surface();
+  SizingScene scene{surface, features, tree.box().diagonal(), {}, {}, {}, {}};
   if (options.sizing == Sizing::Thickness) {
-    scene.diameter = compute_shape_diameter(surface, {}, context);
+    scene.diameter = compute_shape_diameter(tree, {}, context);
     return scene;
   }
   scene.smooth_neighbor = compute_smooth_neighbors(surface, features);
   if (options.wall_factor > 0) {
-    scene.walls = sample_opposite_walls(surface, kWallSampleSpacing * scene.diagonal, context);
+    scene.walls = sample_opposite_walls(tree, kWallSampleSpacing * scene.diagonal, context);
     std::erase_if(scene.walls, [](const WallSample& s) { return !std::isfinite(s.inner); });
   }
   if (options.crease_proximity > 0)

@@ -28,7 +28,8 @@ struct SizingScene {
   std::vector<CreaseSegment> crease_segments;  ///< crease proximity only
 };
 
-SizingScene make_sizing_scene(const TriMesh& surface, const FeatureGraph& features,
+/// The tree should be about unit size.
+SizingScene make_sizing_scene(const SurfaceTree& tree, const FeatureGraph& features,
                               const SizingOptions& options, const Context& context);
 
 /// What may matter to a node: everything near its (enlarged) cube. Children inherit their parent's.
