@@ -11,6 +11,7 @@
 #include "hexwright/version.h"
 
 #include "commands.h"
+#include "memory.h"
 
 namespace hexwright::cli {
 namespace {
@@ -70,8 +71,7 @@ int run(Program& program, int argc, char** argv) {
     program.console.fail(e.what());
     return exit_code_of(e.code());
   } catch (const std::bad_alloc&) {
-    program.console.fail(
-        "not enough memory; use fewer levels (--max-level) or a smaller budget (--max-cells)");
+    program.console.fail(describe_memory_shortage());
     return OutOfResources;
   } catch (const std::exception& e) {
     program.console.fail(std::string("unexpected: ") + e.what());

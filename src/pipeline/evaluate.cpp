@@ -28,7 +28,7 @@ std::string message_of(Part&& part) {
 /// Made in the unit frame, where criteria are independent of the model's units.
 SizingResult make_input_grid(const TriMesh& surface, const EvaluateOptions& options,
                              const Context& context) {
-  const TargetOptions as_given = {Placement::AsGiven, options.mesh.target.features};
+  const TargetOptions as_given = {Placement::AsGiven, options.mesh.target.features, {}};
   const Target target = make_target(surface, as_given, context);
   SizingResult result = build_grid(target, options.sizing, context);
   result.to_world(target.frame);

@@ -500,6 +500,29 @@ class Surroundings(CliTest):
         self.run_binary("mesh", self.cube, "-o", self.path / "out.vtk", *COARSE)
         self.assertEqual(self.files(), ["cube.obj", "out.vtk"])
 
+    def test_a_full_disk_is_an_error_of_the_output(self):
+        out = self.path / "out.vtk"
+        out.symlink_to("/dev/full")
+        done = self.run_binary("mesh", self.cube, "-o", out, *COARSE, expect=4)
+        self.assertIn("No space left", done.stderr)
+
+    def test_a_shortage_of_memory_names_what_was_needed_and_what_to_lower(self):
+        """Whatever the limit is: a message and exit code 4, or success; never a crash, never half a file."""
+        fine = self.path / "fine.cells"
+        fine.write_text("".join(f"6 {x} {y} {z}\n" for x in range(64) for y in range(64) for z in range(64)))
+        out = self.path / "out.vtk"
+        codes = set()
+        for mebibytes in (70, 90, 120, 160, 220, 300, 420):
+            code, message = self.shell(f'ulimit -v {mebibytes * 1024}; exec "$0" dual "$1" -o "$2" --no-optimize -q',
+                                       fine, out)
+            codes.add(code)
+            self.assertIn(code, (0, 4), message)
+            self.assertEqual(out.exists(), code == 0)
+            if code == 4:
+                self.assertRegex(message, r"not enough memory: .* beside the \d+ MiB .*--max-level")
+            out.unlink(missing_ok=True)
+        self.assertIn(4, codes)
+
     def test_names_of_any_bytes_reach_the_report(self):
         model = bytes(self.path) + b"/n\xff.obj"
         Path(self.cube).rename(model.decode(errors="surrogateescape"))

@@ -151,5 +151,20 @@ TEST(OppositeWalls, DoNotDependOnThreads) {
   }
 }
 
+// Half a million triangles smaller than the spacing: far fewer samples, all over the surface.
+TEST(OppositeWalls, AreSampledBySpacingAndNotByTriangle) {
+  const TriMesh sphere = test::unit_sphere_surface(8);
+  ASSERT_GT(sphere.num_tris(), 500'000u);
+  const std::vector<WallSample> walls = sample_opposite_walls(sphere, 0.05, {});
+  EXPECT_LT(walls.size(), 250'000u);
+  std::vector<std::size_t> per_side(8, 0);
+  for (const WallSample& wall : walls) {
+    EXPECT_GT(wall.inner, 1.5);
+    const Vec3& p = wall.point;
+    ++per_side[std::size_t(p.x > 0) + 2 * std::size_t(p.y > 0) + 4 * std::size_t(p.z > 0)];
+  }
+  for (const std::size_t count : per_side) EXPECT_GT(count, walls.size() / 10);
+}
+
 }  // namespace
 }  // namespace hexwright

@@ -45,9 +45,10 @@ struct WallSample {
   }
 };
 
-/// Samples the surface every `spacing` (at least once per triangle) and measures the opposite
-/// walls: the least (length x cosine) over inward rays within 36 degrees that hit a triangle facing
-/// back (n . n' < -0.8). The tree should be about unit size.
+/// Samples the surface every `spacing` (at least once per triangle; of more than 200,000 triangles
+/// those smaller than the spacing in turns) and measures the opposite walls: the least (length x
+/// cosine) over inward rays within 36 degrees that hit a triangle facing back (n . n' < -0.8).
+/// The tree should be about unit size.
 std::vector<WallSample> sample_opposite_walls(const SurfaceTree& surface, double spacing,
                                               const Context& context);
 /// One-shot for a surface of any size and position.

@@ -17,6 +17,8 @@ constexpr double kHalfAngle = 36 * std::numbers::pi / 180;
 constexpr double kFacing = -0.8;  ///< cosine between normals of opposite walls, at most
 /// A gigabyte of results; more means that the spacing is not what the caller had in mind.
 constexpr double kMaxSamples = 2e7;
+/// Triangles that are sampled whatever their area, about.
+constexpr std::size_t kMostObliged = 200'000;
 
 /// Centroids of the pieces of a triangle bisected across its longest side until no side is longer
 /// than twice the spacing (half a square of that size per piece at most, whatever the shape).
@@ -44,22 +46,24 @@ void sample_triangle(const std::array<Vec3, 3>& c, double spacing, std::vector<V
 
 /// About how many samples the spacing asks for; needles count by their length.
 double estimate_samples(const TriMesh& unit, double spacing) {
-  double sum = 0;
+  double sum = static_cast<double>(std::min(unit.num_tris(), kMostObliged));
   for (TriId t : unit.tris.ids()) {
     const auto c = unit.corners(t);
     const double longest =
         std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
-    sum += 1 + norm(cross(c[1] - c[0], c[2] - c[0])) / (spacing * spacing) + longest / spacing;
+    sum += norm(cross(c[1] - c[0], c[2] - c[0])) / (spacing * spacing) + longest / spacing;
   }
   return sum;
 }
 
 /// Chooses among the pieces of one triangle after the other so that a share of 1/spacing^2 of the
 /// area is sampled, evenly, and every triangle at least once. Needles have many small pieces;
-/// taking all would cost far more rays than their area is worth.
+/// taking all would cost far more rays than their area is worth. Of more than kMostObliged
+/// triangles those within one piece are sampled in turns: their neighbours speak for them.
 class SampleThinner {
  public:
-  explicit SampleThinner(double spacing) : area_per_sample_(spacing * spacing) {}
+  SampleThinner(double spacing, std::size_t num_tris)
+      : area_per_sample_(spacing * spacing), turn_(num_tris / kMostObliged + 1) {}
 
   /// Appends the chosen ones of equal-sized pieces of a triangle with the given area.
   void choose(std::span<const Vec3> pieces, double area, std::vector<Vec3>& out) {
@@ -70,11 +74,15 @@ class SampleThinner {
       carry_ -= std::floor(carry_);
       out.push_back(piece);
     }
-    if (out.size() == before) out.push_back(pieces[next_++ % pieces.size()]);
+    if (out.size() > before) return;
+    const std::size_t count = next_++;
+    if (pieces.size() == 1 && count % turn_ != 0) return;
+    out.push_back(pieces[count % pieces.size()]);
   }
 
  private:
   double area_per_sample_;
+  std::size_t turn_;      ///< one of so many small triangles is sampled whatever its area
   double carry_ = 0;      ///< samples owed to the area so far
   std::size_t next_ = 0;  ///< spreads the obligatory samples of needles along them
 };
@@ -104,7 +112,7 @@ std::vector<WallSample> sample_opposite_walls(const SurfaceTree& tree, double sp
                 "the sample spacing asks for more than 20 million samples; use a coarser one");
   std::vector<Vec3> points;
   std::vector<TriId> tris;
-  SampleThinner thinner(spacing);
+  SampleThinner thinner(spacing, surface.num_tris());
   std::vector<Vec3> pieces;
   for (TriId t : surface.tris.ids()) {
     if (tree.normal(t) == Vec3{}) continue;

@@ -9,6 +9,7 @@
 // *SURFACE, *SOLID SECTION. Differs: one part only; *INCLUDE and node systems are refused.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <set>
 #include <unordered_map>
 
@@ -135,13 +136,16 @@ class AbaqusReader {
       read_surface_line(line);
   }
 
+  /// Numbers of nodes and elements: positive, and small enough for sums.
   std::int64_t integer(std::string_view word, const char* what) {
-    try {
-      return scanner_.to_integer(word, what);
-    } catch (const Error&) {
+    std::int64_t value = -1;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+    constexpr std::int64_t kLargest = std::int64_t{1} << 53;
+    if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size() || value < 0 ||
+        value > kLargest)
       fail(std::string("expected an integer for ") + what + ", found " + in_quotes(word) +
            "; correct this line or export the file again");
-    }
+    return value;
   }
 
   void read_node(std::string_view line) {
@@ -150,11 +154,17 @@ class AbaqusReader {
     const std::int64_t id = integer(words[0], "a node");
     Vec3 p;
     for (std::size_t axis = 0; axis < 3 && axis + 1 < words.size(); ++axis)
-      if (!words[axis + 1].empty())
-        p[static_cast<int>(axis)] = scanner_.to_real(words[axis + 1], "a coordinate");
+      if (!words[axis + 1].empty()) p[static_cast<int>(axis)] = coordinate(words[axis + 1]);
     if (!node_to_vert_.try_emplace(id, VertId(file_.positions.size())).second)
       fail("node " + std::to_string(id) + " comes twice; export the file again");
     file_.positions.push_back(p);
+  }
+
+  double coordinate(std::string_view word) {
+    scanner_.set_line(scanner_.line() - 1);  // for the message: the scanner is a line ahead
+    const double value = scanner_.to_real(word, "a coordinate");
+    scanner_.set_line(scanner_.line() + 1);
+    return value;
   }
 
   void begin_elements() {
@@ -236,15 +246,25 @@ class AbaqusReader {
     add_to_set(name, ids, sets);
   }
 
+  /// Of the numbers that exist; a short line must not make a long loop.
   std::vector<std::int64_t> generate(const std::vector<std::int64_t>& range) {
     if (range.size() < 2 || range.size() > 3)
       fail("a range has a first, a last and a step; correct this line");
-    const std::int64_t step = range.size() == 3 ? range[2] : 1;
-    if (step < 1 || (range[1] - range[0]) / step > static_cast<std::int64_t>(kMaxElements))
-      fail("the range is not one; correct this line");
+    const std::int64_t first = range[0], last = range[1], step = range.size() == 3 ? range[2] : 1;
+    if (step < 1 || last < first) fail("the range is not one; correct this line");
+    const auto num_known = static_cast<std::int64_t>(node_to_vert_.size() + element_to_hex_.size());
     std::vector<std::int64_t> ids;
-    for (std::int64_t id = range[0]; id <= range[1]; id += step)
-      if (node_to_vert_.contains(id) || element_to_hex_.contains(id)) ids.push_back(id);
+    if ((last - first) / step <= num_known) {
+      for (std::int64_t k = 0; k <= (last - first) / step; ++k) ids.push_back(first + k * step);
+      return ids;
+    }
+    const auto add = [&](std::int64_t id) {
+      if (id >= first && id <= last && (id - first) % step == 0) ids.push_back(id);
+    };
+    for (const auto& [id, vert] : node_to_vert_) add(id);
+    for (const auto& [id, hex] : element_to_hex_) add(id);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return ids;
   }
 

@@ -84,7 +84,7 @@ class GmshReader {
     const std::size_t count = section_count("the number of names", 6);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t dimension = read_dimension();
-      const std::int64_t tag = scanner_.integer("a group's tag");
+      const std::int64_t tag = read_tag("a group's tag");
       std::string_view name = scanner_.rest_of_line();
       const auto first = name.find('"'), last = name.rfind('"');
       if (first == std::string_view::npos || last == first)
@@ -99,6 +99,15 @@ class GmshReader {
       scanner_.fail("the dimension " + std::to_string(dimension) +
                     " is none of 0 to 3; export the file again");
     return static_cast<std::size_t>(dimension);
+  }
+
+  /// Of nodes, groups and entities.
+  std::int64_t read_tag(const char* what) {
+    const std::int64_t tag = scanner_.integer(what);
+    constexpr std::int64_t kLargest = std::int64_t{1} << 53;
+    if (tag < -kLargest || tag > kLargest)
+      scanner_.fail(std::string(what) + " is out of range; the file is damaged, export it again");
+    return tag;
   }
 
   /// No memory is reserved on the word of a count that the rest of the file cannot hold.
@@ -116,11 +125,11 @@ class GmshReader {
     for (std::size_t& count : counts) count = section_count("the number of entities", 8);
     for (std::size_t dimension = 0; dimension < 4; ++dimension)
       for (std::size_t i = 0; i < counts[dimension]; ++i) {
-        const std::int64_t tag = scanner_.integer("an entity's tag");
+        const std::int64_t tag = read_tag("an entity's tag");
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner_.real("an entity's box");
         const std::size_t num_groups = section_count("the number of groups", 2);
         for (std::size_t g = 0; g < num_groups; ++g) {
-          const std::int64_t group = scanner_.integer("a group's tag");
+          const std::int64_t group = read_tag("a group's tag");
           if (g == 0) entity_to_group_[dimension][tag] = {group < 0 ? -group : group, true};
         }
         const std::size_t num_bounding =
@@ -138,7 +147,7 @@ class GmshReader {
   void read_nodes_2() {
     const std::size_t count = section_count("the number of nodes", 8);
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t tag = scanner_.integer("a node's number");
+      const std::int64_t tag = read_tag("a node's number");
       add_node(tag, scanner_.line_point("a node"));
     }
   }
@@ -150,7 +159,7 @@ class GmshReader {
     for (std::size_t b = 0; b < num_blocks; ++b) {
       for (int k = 0; k < 3; ++k) scanner_.integer("the header of a block");
       std::vector<std::int64_t> tags(section_count("the number of nodes", 8));
-      for (std::int64_t& tag : tags) tag = scanner_.integer("a node's number");
+      for (std::int64_t& tag : tags) tag = read_tag("a node's number");
       for (const std::int64_t tag : tags) {
         scanner_.skip_blank();
         add_node(tag, scanner_.line_point("a node"));
@@ -167,7 +176,7 @@ class GmshReader {
       const std::size_t num_tags = section_count("the number of tags", 2);
       GmshGroup group;
       for (std::size_t t = 0; t < num_tags; ++t) {
-        const std::int64_t tag = scanner_.integer("a tag");
+        const std::int64_t tag = read_tag("a tag");
         if (t == 0 && tag != 0) group = {tag, true};
         if (t == 1 && !group.is_physical) group = {tag, false};
       }
@@ -181,7 +190,7 @@ class GmshReader {
     for (int k = 0; k < 3; ++k) scanner_.integer("a count of elements");
     for (std::size_t b = 0; b < num_blocks; ++b) {
       const std::size_t dimension = read_dimension();
-      const std::int64_t entity = scanner_.integer("an entity's tag");
+      const std::int64_t entity = read_tag("an entity's tag");
       const std::int64_t type = scanner_.integer("an element's type");
       const std::size_t count = section_count("the number of elements", 4);
       const auto found = entity_to_group_[dimension].find(entity);

@@ -205,7 +205,7 @@ void read_names(std::string_view text, SetNames& names) {
       std::int32_t ref = 0;
       const auto number = std::from_chars(line.data(), line.data() + line.size(), ref);
       if (number.ec == std::errc() && number.ptr < line.data() + line.size() && *number.ptr == ' ')
-        names.add(kind.kind, ref - kind.ref_minus_number,
+        names.add(kind.kind, std::int64_t{ref} - kind.ref_minus_number,
                   {number.ptr, static_cast<std::size_t>(line.data() + line.size() - number.ptr)});
     }
   }

@@ -18,6 +18,7 @@ std::optional<std::int32_t> number_in(SetKind kind, std::string_view name) {
   if (underscore == std::string_view::npos) return std::nullopt;
   std::int32_t number = -1;
   const auto digits = name.substr(underscore + 1);
+  if (digits.starts_with('-')) return std::nullopt;
   if (digits != "NONE" &&
       std::from_chars(digits.data(), digits.data() + digits.size(), number).ptr !=
           digits.data() + digits.size())

@@ -52,14 +52,11 @@ class PartFile {
  public:
   explicit PartFile(const fs::path& target) : target_(target) {
     constexpr int kMostAttempts = 1000;
-    int attempt = 0;
-    while (attempt < kMostAttempts && !create(attempt)) {
+    while (attempt_ < kMostAttempts && !create(attempt_)) {
       if (errno != EEXIST) throw cannot_write(target, std::strerror(errno));
-      if (!remove_if_left(name(attempt))) ++attempt;
+      if (!remove_if_left(name(attempt_))) ++attempt_;
     }
     if (!file_) throw cannot_write(target, "too many unfinished files are beside it");
-    while (remove_if_left(name(++attempt))) {
-    }
   }
   ~PartFile() {
     part_path = nullptr;
@@ -68,6 +65,12 @@ class PartFile {
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
+
+  /// Removes what killed runs left under later numbers.
+  void remove_left_behind() {
+    for (int attempt = attempt_ + 1; remove_if_left(name(attempt)); ++attempt) {
+    }
+  }
 
   /// Writes, syncs and renames; 0, or the errno of what failed.
   int finish(std::string_view content) {
@@ -115,6 +118,7 @@ class PartFile {
   fs::path target_;
   std::string path_;
   std::FILE* file_ = nullptr;
+  int attempt_ = 0;  ///< the number in its name
   bool is_renamed_ = false;
 };
 
@@ -145,6 +149,7 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
     return write_to_device(target, content);
   PartFile part(target);
+  part.remove_left_behind();
   if (const int reason = part.finish(content)) throw cannot_finish(path, reason);
 }
 
