@@ -105,7 +105,7 @@ TEST_F(GateTest, VolumeWarnsThenFailsWhereItIsKnown) {
   }
   MeshResult off = good_;
   off.verdict.volume_error = 0.5;
-  expected_.num_hidden = 1;  // the surface's volume counts what lies hidden
+  target_.expected.num_hidden = 1;  // the surface's volume counts what lies hidden
   EXPECT_TRUE(failures_of(off).empty());
 }
 

@@ -48,7 +48,7 @@ TEST(Judge, TellsByHowMuchTheVolumeIsOff) {
   // Without a closed surface there is none to compare with.
   TriMesh open = test::unit_cube_surface();
   open.tris.resize(11);
-  EXPECT_FALSE(judge(flat, SurfaceTree(open), {}, {}).volume_error);
+  EXPECT_FALSE(judge(flat, wrap_target(open), {}, {}).volume_error);
 }
 
 TEST(Judge, AMovedEdgeIsALostFeature) {
