@@ -58,7 +58,7 @@ struct AverageOptions {
   int power = 8;  ///< the larger, the more a hex is judged by its worst corner alone
   double tolerance = 0.01;
   double relaxation = 1.6;  ///< see SweepOptions; what three sweeps reach took nine at 1
-  double floor = 0;  ///< nowhere the least falls below both this and what it was
+  double floor = 0;         ///< nowhere the least falls below both this and what it was
 };
 /// Raises the average scaled Jacobian of dirty vertices' surroundings within the motion their
 /// `move` allows; no move takes the least around a vertex below both `least` and what it was.

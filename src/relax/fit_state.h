@@ -68,8 +68,8 @@ struct FitState {
   /// Distance from the vertex to what it is attached to, in units of its size.
   double residual(VertId v) const;
 
-  /// Whether a hex's face is to be fitted to the surface: towards nothing, or between the two sides.
-  /// Faces of the fixed outer boundary are not.
+  /// Whether a hex's face is to be fitted to the surface: towards nothing, or between the two
+  /// sides. Faces of the fixed outer boundary are not.
   bool is_fitted_face(const HexFace& face) const;
 
   /// Recomputes everything derived after the connectivity changed. Per-vertex arrays grow to the

@@ -1,9 +1,9 @@
 // The plan: what each stage is asked for follows from the wishes and the surface alone.
 #include "hexwright/pipeline/plan.h"
 
-#include "hexwright/pipeline/stages.h"
-
 #include <gtest/gtest.h>
+
+#include "hexwright/pipeline/stages.h"
 
 #include "helpers.h"
 #include "pipeline/budgets.h"

@@ -20,9 +20,8 @@ struct CarveOptions {
   double keep_fraction = 0.5;  ///< filled fraction above which a hex is kept
   double visible_normal =
       0.1;  ///< least n . d of a direction d that sees all quads around a boundary vertex
-  double min_component_share =
-      0.01;  ///< inside components smaller than this share of the largest are dropped, but for
-             ///< as many as the surface has solids
+  double min_component_share = 0.01;  ///< inside components smaller than this share of the largest
+                                      ///< are dropped, but for as many as the surface has solids
 };
 
 struct CarveResult {

@@ -19,8 +19,8 @@ namespace hexwright {
 /// nothing. Two winding numbers: microseconds. False for a triangle without area.
 bool bounds_solid(const SurfaceTree& surface, TriId t, const Vec3& p);
 
-/// The same, probed no farther than ten steps from p: on large triangles that are in part inside the
-/// solid, p is judged by itself. Less sure on the edges of needles.
+/// The same, probed no farther than ten steps from p: on large triangles that are in part inside
+/// the solid, p is judged by itself. Less sure on the edges of needles.
 bool bounds_solid_near(const SurfaceTree& surface, TriId t, const Vec3& p);
 
 /// The same with a step of 7e-4 of the triangle's altitude instead of its size, so that a needle
