@@ -125,6 +125,7 @@ class SidePairs {
   /// as end, all find a partner.
   void pair_around(std::size_t e, const std::vector<int>& part) {
     std::vector<Spoke> spokes = sort_spokes(e, part);
+    if (spokes.empty()) return;  // open parts only
     long depth = 0, least = 0;
     std::size_t start = 0;
     for (std::size_t i = 0; i < spokes.size(); ++i) {
