@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   constexpr void (*kTables[])(std::uint8_t, const std::string&) = {
       set_option_of<MeshOptions>,      set_option_of<CompleteOptions>,
-      set_option_of<DualStageOptions>, set_option_of<FitOptions>,
+      set_option_of<DualStageOptions>, set_option_of<FitStageOptions>,
       set_option_of<ImproveOptions>,   set_option_of<PolycubeOptions>,
       set_option_of<FeatureOptions>,   set_option_of<EvaluateOptions>};
   kTables[data[0] % std::size(kTables)](
