@@ -23,13 +23,12 @@ enum GmshType : std::int64_t { Line = 1, Quad = 3, Tetra = 4, Hexahedron = 5, Po
 struct GmshGroup {
   std::int64_t tag = 0;
   bool is_physical = false;
-  friend auto operator<=>(const GmshGroup&, const GmshGroup&) = default;
 };
 
 class GmshReader {
  public:
   explicit GmshReader(const VolumeSource& source)
-      : source_(source), scanner_(source.bytes, source.name) {}
+      : scanner_(source.bytes, source.name) {}
 
   VolumeFile run() {
     while (scanner_.skip_blank()) {
@@ -273,7 +272,6 @@ class GmshReader {
     for (const GmshGroup& group : hex_groups_) file_.region.push_back(regions.at(group.tag));
   }
 
-  const VolumeSource& source_;
   TextScanner scanner_;
   bool is_version_4_ = true;
   VolumeFile file_;
