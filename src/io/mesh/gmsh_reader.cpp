@@ -27,8 +27,7 @@ struct GmshGroup {
 
 class GmshReader {
  public:
-  explicit GmshReader(const VolumeSource& source)
-      : scanner_(source.bytes, source.name) {}
+  explicit GmshReader(const VolumeSource& source) : scanner_(source.bytes, source.name) {}
 
   VolumeFile run() {
     while (scanner_.skip_blank()) {
