@@ -28,7 +28,9 @@ ROOMS = {
     "geometry": ["frame", "tree", "prepare", "features", "walls"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
     "io": ["text", "surface", "sets", "solver", "mesh", "grid"],
+    "relax": ["kernel", "state", "passes", "joint"],
     "fit": ["carve", "curves", "sheets"],
+    "pipeline": ["options", "loop", "report"],
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.
 FORBIDDEN_IN_PUBLIC = re.compile(r"#include <(tbb|oneapi|iostream|nlohmann|fmt|Highs|CLI)")

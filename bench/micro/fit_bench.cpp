@@ -6,7 +6,7 @@
 #include "hexwright/fit/fit.h"
 
 #include "fit/fit_helpers.h"
-#include "relax/vertex_newton.h"
+#include "relax/kernel/vertex_newton.h"
 
 namespace {
 

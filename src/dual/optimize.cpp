@@ -16,7 +16,7 @@
 #include "hexwright/mesh/hex_shape.h"
 
 #include "dual/quality_of_hex.h"
-#include "relax/vertex_newton.h"
+#include "relax/kernel/vertex_newton.h"
 
 namespace hexwright::dual {
 

@@ -23,11 +23,11 @@
 #include "fit/sheets/failed.h"
 #include "fit/sheets/pad_boundary.h"
 #include "fit/sheets/squeezed.h"
-#include "relax/balance.h"
-#include "relax/finish.h"
-#include "relax/joint_lift.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/joint/lift.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/balance.h"
+#include "relax/state/targets.h"
 
 namespace hexwright {
 namespace {

@@ -10,8 +10,8 @@
 #include "hexwright/pipeline/plan.h"
 
 #include "base/stage_log.h"
-#include "pipeline/budgets.h"
-#include "pipeline/loop.h"
+#include "pipeline/loop/budgets.h"
+#include "pipeline/loop/loop.h"
 
 namespace hexwright {
 namespace {

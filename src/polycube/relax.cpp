@@ -15,11 +15,11 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/sheets/pad_boundary.h"
-#include "relax/finish.h"
-#include "relax/fit_state.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
-#include "relax/untangle.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/passes/untangle.h"
+#include "relax/state/fit_state.h"
+#include "relax/state/targets.h"
 
 namespace hexwright::polycube {
 namespace {

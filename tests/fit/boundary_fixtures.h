@@ -9,7 +9,7 @@
 
 #include "fit/curves/map_features.h"
 #include "helpers.h"
-#include "relax/boundary_quads.h"
+#include "relax/kernel/boundary_quads.h"
 #include "solids.h"
 
 namespace hexwright::test {

@@ -11,8 +11,8 @@
 #include "fit/sheets/groups.h"
 #include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright::fitting {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "fit/sheets/pad_boundary.h"
 #include "fit_helpers.h"
-#include "relax/finish.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright {
 namespace {

@@ -7,7 +7,7 @@
 #include "fit/sheets/failed.h"
 #include "fit/sheets/pad.h"
 #include "fit/sheets/pad_boundary.h"
-#include "relax/sweep.h"
+#include "relax/passes/sweep.h"
 
 namespace hexwright::fitting {
 

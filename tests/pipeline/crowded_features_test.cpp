@@ -1,5 +1,5 @@
 // Where curves crowd, and how far the grid is split there.
-#include "pipeline/crowded_features.h"
+#include "pipeline/loop/crowded_features.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Which missed places on features the loop refines for.
-#include "pipeline/feature_misses.h"
+#include "pipeline/loop/feature_misses.h"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include "hexwright/grid/grid.h"
 
 #include "helpers.h"
-#include "pipeline/loop.h"
+#include "pipeline/loop/loop.h"
 
 namespace hexwright {
 namespace {

@@ -12,7 +12,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "helpers.h"
-#include "pipeline/loop.h"
+#include "pipeline/loop/loop.h"
 #include "solids.h"
 
 namespace hexwright {

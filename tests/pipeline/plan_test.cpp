@@ -6,7 +6,7 @@
 #include "hexwright/pipeline/stages.h"
 
 #include "helpers.h"
-#include "pipeline/budgets.h"
+#include "pipeline/loop/budgets.h"
 
 namespace hexwright {
 namespace {

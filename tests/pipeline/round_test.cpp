@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "helpers.h"
-#include "pipeline/loop.h"
+#include "pipeline/loop/loop.h"
 
 namespace hexwright {
 namespace {

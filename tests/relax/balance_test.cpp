@@ -1,4 +1,4 @@
-#include "relax/balance.h"
+#include "relax/state/balance.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "fit/fit_helpers.h"
 #include "fit/sheets/pad_boundary.h"
-#include "relax/finish.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright {
 namespace {

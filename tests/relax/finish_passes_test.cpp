@@ -6,10 +6,10 @@
 #include "fit/boundary_fixtures.h"
 #include "fit/fit_helpers.h"
 #include "fit/sheets/pad_boundary.h"
-#include "relax/finish.h"
-#include "relax/proof.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/proof.h"
+#include "relax/state/targets.h"
 
 namespace hexwright {
 namespace {

@@ -6,7 +6,7 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "fit/fit_helpers.h"
-#include "relax/fixed_bound.h"
+#include "relax/kernel/fixed_bound.h"
 
 namespace hexwright {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "fit/fit_helpers.h"
 #include "helpers.h"
-#include "relax/joint_energy.h"
-#include "relax/joint_region.h"
-#include "relax/proof.h"
+#include "relax/joint/energy.h"
+#include "relax/joint/region.h"
+#include "relax/state/proof.h"
 
 namespace hexwright {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "fit/fit_helpers.h"
 #include "fit/sheets/pad_boundary.h"
-#include "relax/finish.h"
-#include "relax/proof.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/proof.h"
+#include "relax/state/targets.h"
 
 namespace hexwright {
 namespace {

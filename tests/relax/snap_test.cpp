@@ -4,8 +4,8 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "helpers.h"
-#include "relax/finish.h"
-#include "relax/fit_state.h"
+#include "relax/passes/finish.h"
+#include "relax/state/fit_state.h"
 
 namespace hexwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "relax/vertex_newton.h"
+#include "relax/kernel/vertex_newton.h"
 
 #include <random>
 #include <set>

@@ -1,7 +1,7 @@
 // The part of a background mesh that a carve keeps, as the state the fit starts from.
 #pragma once
 
-#include "relax/fit_state.h"
+#include "relax/state/fit_state.h"
 
 namespace hexwright::fitting {
 

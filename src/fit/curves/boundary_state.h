@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/curves/regions.h"
-#include "relax/fit_state.h"
+#include "relax/state/fit_state.h"
 
 namespace hexwright::fitting {
 

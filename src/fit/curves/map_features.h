@@ -10,7 +10,7 @@
 
 #include "hexwright/geometry/feature_graph.h"
 
-#include "relax/boundary_quads.h"
+#include "relax/kernel/boundary_quads.h"
 
 namespace hexwright::fitting {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "relax/boundary_quads.h"
+#include "relax/kernel/boundary_quads.h"
 
 namespace hexwright::fitting {
 

@@ -10,9 +10,9 @@
 #include "fit/sheets/groups.h"
 #include "fit/sheets/pad.h"
 #include "fit/sheets/pad_needs.h"
-#include "relax/finish.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright::fitting {
 

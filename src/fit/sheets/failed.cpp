@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "relax/finish.h"
-#include "relax/sweep.h"
-#include "relax/targets.h"
+#include "relax/passes/finish.h"
+#include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright::fitting {
 

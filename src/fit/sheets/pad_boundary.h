@@ -1,7 +1,7 @@
 // One layer of hexes along all quads that are to be fitted.
 #pragma once
 
-#include "relax/fit_state.h"
+#include "relax/state/fit_state.h"
 
 namespace hexwright::fitting {
 

@@ -3,7 +3,7 @@
 
 #include "fit/carve/visible_normal.h"
 #include "fit/sheets/sheet.h"
-#include "relax/fit_state.h"
+#include "relax/state/fit_state.h"
 
 namespace hexwright::fitting {
 

@@ -1,0 +1,166 @@
+// Reading values of options. Numbers are read whole or refused: signs where none belong, rests
+// behind the number and overflow are errors.
+#include "pipeline/options/option_rows.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "hexwright/base/error.h"
+
+namespace hexwright {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& what) {
+  throw Error(ErrorCode::BadArgument, fmt::format("'{}' is {}", text, what));
+}
+
+template <class Integer>
+std::optional<Integer> to_whole(const std::string& text) {
+  Integer value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+std::optional<double> to_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+bool to_flag(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  refuse(text, "neither true nor false");
+}
+
+std::string describe_range(double least, double most) {
+  if (!std::isfinite(most)) return fmt::format("{} or more", least);
+  return fmt::format("{} to {}", least, most);
+}
+
+NamedOption make_row(RowText text, OptionKind kind, std::string allowed, std::string fallback) {
+  NamedOption row;
+  row.name = std::move(text.name);
+  row.help = std::move(text.help);
+  row.kind = kind;
+  row.allowed = std::move(allowed);
+  row.fallback = std::move(fallback);
+  return row;
+}
+
+}  // namespace
+
+double parse_share(const std::string& text) {
+  char* end = nullptr;
+  double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str()) refuse(text, "not a number");
+  if (*end == '%') {
+    value /= 100;
+    ++end;
+  }
+  // A share of 1 or more is nearly always a forgotten percent sign.
+  if (*end != '\0' || !(value > 0) || !(value < 1))
+    refuse(text, "not a share of the diagonal; write e.g. 0.5% or 0.005");
+  return value;
+}
+
+std::string share_to_text(double share) { return fmt::format("{:.6g}%", 100 * share); }
+
+NamedOption flag_row(RowText text, std::function<void()> enable) {
+  NamedOption row = make_row(std::move(text), OptionKind::Flag, "", "false");
+  row.set = [enable = std::move(enable)](const std::string& given) {
+    if (to_flag(given)) enable();
+  };
+  return row;
+}
+
+NamedOption flag_row(RowText text, bool& value, bool value_when_given) {
+  return flag_row(std::move(text), [&value, value_when_given] { value = value_when_given; });
+}
+
+NamedOption whole_row(RowText text, int& value, int least, int most) {
+  const std::string allowed = describe_range(least, most);
+  NamedOption row = make_row(std::move(text), OptionKind::Whole, allowed, fmt::to_string(value));
+  row.set = [&value, least, most, allowed](const std::string& given) {
+    const auto number = to_whole<int>(given);
+    if (!number || *number < least || *number > most)
+      refuse(given, "no whole number from " + allowed);
+    value = *number;
+  };
+  return row;
+}
+
+NamedOption count_row(RowText text, std::size_t& value) {
+  NamedOption row =
+      make_row(std::move(text), OptionKind::Whole, "1 or more", fmt::to_string(value));
+  row.set = [&value](const std::string& given) {
+    const auto number = to_whole<std::uint64_t>(given);
+    if (!number || *number == 0)
+      refuse(given, "no whole number from 1 up to 2^64; write digits only");
+    value = *number;
+  };
+  return row;
+}
+
+NamedOption number_row(RowText text, double& value, double least, double most) {
+  const std::string allowed = describe_range(least, most);
+  NamedOption row =
+      make_row(std::move(text), OptionKind::Number, allowed, fmt::format("{}", value));
+  row.set = [&value, least, most, allowed](const std::string& given) {
+    const auto number = to_number(given);
+    if (!number || *number < least || *number > most) refuse(given, "no number from " + allowed);
+    value = *number;
+  };
+  return row;
+}
+
+NamedOption degrees_row(RowText text, double& radians, double least, double most) {
+  const double degrees = radians * 180 / std::numbers::pi;
+  const std::string allowed = describe_range(least, most);
+  NamedOption row =
+      make_row(std::move(text), OptionKind::Degrees, allowed, fmt::format("{:.6g}", degrees));
+  row.set = [&radians, least, most, allowed](const std::string& given) {
+    const auto number = to_number(given);
+    if (!number || *number < least || *number > most)
+      refuse(given, "no angle in degrees from " + allowed);
+    radians = *number * std::numbers::pi / 180;
+  };
+  return row;
+}
+
+NamedOption share_row(RowText text, double& value) {
+  NamedOption row =
+      make_row(std::move(text), OptionKind::Share, "above 0, below 100%", share_to_text(value));
+  row.set = [&value](const std::string& given) { value = parse_share(given); };
+  return row;
+}
+
+NamedOption choice_row(RowText text, const std::vector<std::string>& names,
+                       const std::string& fallback) {
+  return make_row(std::move(text), OptionKind::Choice, fmt::format("{}", fmt::join(names, "|")),
+                  fallback);
+}
+
+std::size_t find_choice(const std::string& text, const std::vector<std::string>& names) {
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (names[k] == text) return k;
+  refuse(text, fmt::format("none of {}", fmt::join(names, "|")));
+}
+
+const NamedOption* find_option(const OptionTable& table, std::string_view name) {
+  for (const NamedOption& row : table)
+    if (row.name == name) return &row;
+  return nullptr;
+}
+
+}  // namespace hexwright

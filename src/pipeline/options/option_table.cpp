@@ -1,0 +1,227 @@
+// The options of every stage. docs/cli.md and the signatures of the Python package are generated
+// from these rows (tools/option_docs.py).
+#include "hexwright/pipeline/option_table.h"
+
+#include <limits>
+#include <utility>
+
+#include "pipeline/options/option_rows.h"
+
+namespace hexwright {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+void append(OptionTable& table, OptionTable rows) {
+  for (NamedOption& row : rows) table.push_back(std::move(row));
+}
+
+OptionTable sizing_rows(SizingOptions& options) {
+  return {
+      choice_row<Sizing>(
+          {"sizing",
+           "Where cells are fine: 'deviation' where the surface bends or walls are near, "
+           "'thickness' by the shape diameter alone"},
+          options.sizing, {{"deviation", Sizing::Deviation}, {"thickness", Sizing::Thickness}}),
+      share_row(
+          {"tolerance", "Distance goal as a share of the bounding box's diagonal, 0.5% or 0.005"},
+          options.tolerance),
+      whole_row({"min-level", "Cells at the surface are at least this deep"}, options.min_level, 0,
+                kMaxGridLevel),
+      whole_row({"max-level", "No cell is deeper"}, options.max_level, 0, kMaxGridLevel),
+      count_row({"max-cells", "Stop refining, at a whole level, before the grid has more cells"},
+                options.max_cells),
+  };
+}
+
+OptionTable complete_rows(CompleteOptions& options) {
+  return {
+      choice_row<Pairing>({"pairing", "How the grid is made hexmeshable"}, options.pairing,
+                          {{"blocks", Pairing::Blocks},
+                           {"none", Pairing::None},
+                           {"octree", Pairing::Octree},
+                           {"sheets", Pairing::Sheets}}),
+      choice_row<Balance>(
+          {"balance",
+           "Cells sharing a face (weak) or also an edge or vertex (strong) differ by at most one "
+           "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak"},
+          options.balance,
+          {{"auto", Balance::Auto},
+           {"relaxed", Balance::Relaxed},
+           {"strong", Balance::Strong},
+           {"weak", Balance::Weak}}),
+  };
+}
+
+NamedOption feature_angle_row(FeatureOptions& options) {
+  return degrees_row({"feature-angle", "Edges whose faces turn by more are sharp, degrees"},
+                     options.crease_angle, 1, 180);
+}
+
+OptionTable fit_rows(FitOptions& options) {
+  return {
+      choice_row<Side>(
+          {"side", "What to mesh: the object, the box around it, or both with two region tags"},
+          options.carve.side,
+          {{"both", Side::Both}, {"inside", Side::Inside}, {"outside", Side::Outside}}),
+      choice_row<Padding>({"padding", "Where a layer of hexes is put under the boundary"},
+                          options.padding,
+                          {{"everywhere", Padding::Everywhere}, {"selective", Padding::Selective}}),
+      choice_row<PatchVerts>(
+          {"vertices",
+           "Vertices of curved patches: beside the surface, so that quads err to both sides of "
+           "it, or on it"},
+          options.patch_verts,
+          {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}}),
+  };
+}
+
+OptionTable prepare_rows(PrepareOptions& options) {
+  OptionTable table = {
+      choice_row<Parts>(
+          {"parts",
+           "Solids that overlap or touch: united; those that only touch kept apart; or all "
+           "surfaces "
+           "left as they are"},
+          options.parts,
+          {{"as-is", Parts::AsIs}, {"separate", Parts::Separate}, {"unite", Parts::Unite}}),
+      share_row(
+          {"min-part",
+           "Parts no longer than this share of the diagonal are left out, with a warning, and "
+           "voids filled"},
+          options.min_part),
+  };
+  table.back().fallback = "the tolerance";
+  return table;
+}
+
+/// A level asked for binds the loop too.
+void let_level_bind_loop(OptionTable& table, MeshOptions& options) {
+  for (NamedOption& row : table)
+    if (row.name == "max-level")
+      row.set = [&options, set = std::move(row.set)](const std::string& text) {
+        set(text);
+        options.loop_extra_levels = 0;
+      };
+}
+
+}  // namespace
+
+OptionTable make_option_table(MeshOptions& options) {
+  OptionTable table = sizing_rows(options.sizing);
+  let_level_bind_loop(table, options);
+  table.push_back(choice_row<Placement>(
+      {"placement",
+       "The lattice along the part's faces, however they are turned (inside only), or along the "
+       "given axes"},
+      options.target.placement, {{"as-given", Placement::AsGiven}, {"faces", Placement::Faces}}));
+  append(table, prepare_rows(options.target.prepare));
+  table.push_back(
+      number_row({"transition-cost",
+                  "What a cell beside another level counts more than one that is not, when levels "
+                  "are evened out; 0 = never even out"},
+                 options.even.transition_cost, 0, kNoLimit));
+  table.push_back(whole_row({"rounds", "At most so many refinements"}, options.max_rounds, 0, 100));
+  // After the rounds, which it sets too.
+  table.push_back(flag_row({"no-loop",
+                            "A single pass with a stricter a-priori sizing, instead of refining "
+                            "where the fit missed"},
+                           [&options] { use_single_pass(options); }));
+  table.push_back(count_row({"max-hexes", "Budget of the background mesh"}, options.max_hexes));
+  append(table, complete_rows(options.complete));
+  append(table, fit_rows(options.fit));
+  table.push_back(feature_angle_row(options.target.features));
+  return table;
+}
+
+OptionTable make_grid_option_table(MeshOptions& options) {
+  OptionTable table = sizing_rows(options.sizing);
+  table.push_back(flag_row({"no-loop", "The stricter sizing of a single pass"},
+                           [&options] { use_single_pass(options); }));
+  table.push_back(feature_angle_row(options.target.features));
+  return table;
+}
+
+OptionTable make_inspect_option_table(MeshOptions& options) {
+  OptionTable table = prepare_rows(options.target.prepare);
+  table.push_back(share_row(
+      {"tolerance", "What is thinner than this share of the bounding box's diagonal is thin"},
+      options.sizing.tolerance));
+  table.push_back(feature_angle_row(options.target.features));
+  return table;
+}
+
+OptionTable make_option_table(CompleteOptions& options) { return complete_rows(options); }
+
+OptionTable make_option_table(DualStageOptions& options) {
+  return {
+      choice_row<std::optional<DualMode>>(
+          {"mode", "'blocks' needs a paired grid, 'sheets' a balanced one; 'auto' looks"},
+          options.mode,
+          {{"auto", std::nullopt}, {"blocks", DualMode::Blocks}, {"sheets", DualMode::Sheets}}),
+      flag_row({"no-optimize", "Leave the vertices where they were made"}, options.optimize, false),
+  };
+}
+
+OptionTable make_option_table(FitStageOptions& options) {
+  OptionTable table = {flag_row({"no-carve", "The mesh already stands for the object: only fit it"},
+                                options.fit.do_carve, false)};
+  append(table, fit_rows(options.fit));
+  table.push_back(feature_angle_row(options.target.features));
+  return table;
+}
+
+OptionTable make_option_table(ImproveOptions& options) {
+  return {
+      whole_row({"rounds", "At most so many rounds"}, options.max_rounds, 1, 10000),
+      number_row({"goal", "Stop at this least scaled Jacobian"}, options.goal, -1, 1),
+  };
+}
+
+OptionTable make_option_table(PolycubeOptions& options) {
+  OptionTable table = {
+      share_row({"max-stretch",
+                 "A cell is split while two object points in it are farther apart than this share "
+                 "of the diagonal"},
+                options.max_stretch),
+      share_row({"max-surface-error",
+                 "Cells are split where the mesh would miss the surface by more than this share of "
+                 "the diagonal, and again where it does"},
+                options.max_surface_error),
+      flag_row({"ignore-distance", "Split by stretch and size alone, wherever the surface ends up"},
+               [&options] { options.max_surface_error = 0; }),
+      whole_row({"rounds", "Meshes made at most; more than one only where the surface was missed"},
+                options.max_rounds, 1, 20),
+      flag_row({"pad",
+                "Put a layer of hexes under the boundary: for polycube edges where the object is "
+                "smooth"},
+               options.pad),
+      number_row({"spacing", "Edge of a lattice cube in polycube units; 0 derives it"},
+                 options.spacing, 0, kNoLimit),
+      whole_row({"min-level", "Cells are at least this deep"}, options.min_level, 0, 12),
+      whole_row({"max-level", "No cell is deeper"}, options.max_level, 0, 12),
+      count_row({"max-cells", "Budget of cells"}, options.max_cells),
+  };
+  append(table, complete_rows(options.complete));
+  return table;
+}
+
+OptionTable make_option_table(FeatureOptions& options) { return {feature_angle_row(options)}; }
+
+OptionTable make_option_table(EvaluateOptions& options) {
+  return {
+      whole_row({"grid-max-level", "Input grids are no deeper"}, options.sizing.max_level, 1,
+                kMaxGridLevel),
+      count_row({"grid-max-cells", "Input grids have no more cells"}, options.sizing.max_cells),
+      share_row({"tolerance", "Distance goal of the final mesh, share of the diagonal"},
+                options.mesh.sizing.tolerance),
+      whole_row({"max-level", "Deepest cell of the final mesh's grid"},
+                options.mesh.sizing.max_level, 0, kMaxGridLevel),
+      whole_row({"rounds", "Refinements of the final mesh"}, options.mesh.max_rounds, 0, 100),
+      count_row({"max-hexes", "Budget of the final mesh"}, options.mesh.max_hexes),
+      flag_row({"no-dual", "Count cells only: no dual mesh of the grids"}, options.run_dual, false),
+      flag_row({"no-mesh", "Compare completions only: no final mesh"}, options.run_mesh, false),
+  };
+}
+
+}  // namespace hexwright

@@ -1,0 +1,76 @@
+// The last passes of the fit: they work where something is left to do.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relax/state/fit_state.h"
+
+namespace hexwright::relax {
+
+/// Adds `rings` rings of hex-neighbours to a set of vertices.
+void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings);
+
+/// A new attachment weight moves the boundary of a region (one entry per vertex); its inside
+/// follows where the boundary moved.
+void mark_boundary_dirty(FitState& state, const std::vector<char>& region);
+
+struct RefitOptions {
+  int max_rounds = 2;
+  double stuck = 0.04;  ///< residual, in h, of a vertex that did not reach its target
+  int rings = 2;
+  ShapeEnergy shape{0.9, 1, 0};
+};
+/// Fits the surroundings of stuck vertices anew, from a low to a high attachment weight.
+void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& options,
+                 const Context& context);
+
+struct PolishOptions {
+  int max_rounds = 8;
+  double low = 0.35;  ///< hexes with a scaled Jacobian below are worked on
+};
+/// Raises the worst scaled Jacobians with an energy that the worst corners dominate.
+void polish_worst(FitState& state, const FitTarget& target, const PolishOptions& options,
+                  const Context& context);
+
+/// Moves boundary vertices onto their targets, halving the way up to five times, while the least
+/// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.
+/// `only`: empty or one entry per vertex.
+void snap_to_targets(FitState& state, const FitTarget& target, double least_quality,
+                     std::span<const char> only = {});
+
+/// Moves corners that are farther than `tolerance` (a length) from their feature point just within
+/// it, where the least scaled Jacobian around stays above min(its present value, `least_quality`)
+/// and above 0. Requires current targets. Returns how many it moved.
+std::size_t meet_corners(FitState& state, double tolerance, double least_quality);
+
+struct LiftOptions {
+  double goal = 0.65;  ///< least scaled Jacobian to be content with
+  int max_rounds = 20;
+  double residual_slack = 1e-4;  ///< how much the sum of squared residuals (in h) may grow
+};
+/// Raises the least scaled Jacobian with boundary vertices sliding only. Never lowers it.
+void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& options,
+                const Context& context);
+
+struct AverageOptions {
+  int sweeps = 3;
+  int power = 8;  ///< the larger, the more a hex is judged by its worst corner alone
+  double tolerance = 0.01;
+  double relaxation = 1.6;  ///< see SweepOptions; what three sweeps reach took nine at 1
+  double floor = 0;         ///< nowhere the least falls below both this and what it was
+};
+/// Raises the average scaled Jacobian of dirty vertices' surroundings within the motion their
+/// `move` allows; no move takes the least around a vertex below both `least` and what it was.
+void sweep_for_average(FitState& state, double least, const AverageOptions& options,
+                       const Context& context);
+/// Raises the average scaled Jacobian of the whole mesh with boundary vertices sliding only, then
+/// snaps them.
+void raise_average(FitState& state, const FitTarget& target, const AverageOptions& options,
+                   const Context& context);
+
+/// Works on hexes whose Jacobian is not proven positive everywhere inside, letting go of the
+/// surface around them more and more; returns those that remain.
+std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context);
+
+}  // namespace hexwright::relax
