@@ -109,7 +109,15 @@ std::string say_volume_off(const RoundInput& input, const Round& round) {
 
 std::vector<Vec3> places_thin(const RoundInput&, const Round& round) { return round.thin_misses; }
 
+std::vector<Vec3> places_thin_beyond_gate(const RoundInput& input, const Round& round) {
+  return is_volume_within_gate(input, round) ? std::vector<Vec3>() : round.thin_misses;
+}
+
 bool is_volume_curable(const RoundInput&, const Round& round) { return !round.thin_misses.empty(); }
+
+bool is_volume_gate_curable(const RoundInput& input, const Round& round) {
+  return !is_volume_within_gate(input, round) && is_volume_curable(input, round);
+}
 
 bool has_least_quality(const RoundInput& input, const Round& round) {
   return round.verdict.quality.min_scaled_jacobian >= input.options.min_quality;
@@ -180,8 +188,8 @@ constexpr Demand kDemands[] = {
     {.name = "volume",
      .is_met = is_volume_within_gate,
      .shortfall = volume_off,
-     .places = places_thin,
-     .is_curable = is_volume_curable,
+     .places = places_thin_beyond_gate,
+     .is_curable = is_volume_gate_curable,
      .sentence = say_volume_beyond_gate,
      .severity = Severity::Failure},
     {.name = "within_tolerance",
@@ -201,8 +209,10 @@ constexpr Demand kDemands[] = {
     {.name = "volume_near",
      .is_met = is_volume_near,
      .shortfall = volume_off,
+     .places = places_thin,
      .is_curable = is_volume_curable,
-     .sentence = say_volume_off},
+     .sentence = say_volume_off,
+     .is_minor = true},
 };
 
 /// The tolerance for distances is at most so many times the one for features (the default is five):

@@ -29,6 +29,8 @@ struct Demand {
   /// it.
   std::string (*sentence)(const RoundInput&, const Round&) = nullptr;
   bool is_distance = false;  ///< all cells a little smaller mend it as well
+  /// Refined for when nothing else is left, and only while that costs few cells.
+  bool is_minor = false;
   Severity severity = Severity::Warning;
 };
 

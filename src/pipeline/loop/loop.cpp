@@ -70,6 +70,28 @@ std::vector<char> find_needed_leaves(const RoundInput& input, const Grid& grid) 
   return is_needed;
 }
 
+/// Where the demands, those that are minor or the others, call for finer cells.
+std::vector<Vec3> collect_places(const RoundInput& input, const Round& round, bool minor) {
+  std::vector<Vec3> points;
+  for (const Demand& demand : demands()) {
+    if (!demand.places || demand.is_minor != minor) continue;
+    const std::vector<Vec3> places = demand.places(input, round);
+    points.insert(points.end(), places.begin(), places.end());
+  }
+  return points;
+}
+
+/// What only minor demands ask for may not cost more than this factor in cells.
+constexpr double kMinorGrowth = 1.5;
+
+bool is_worth_its_cells(const RoundInput& input, const Round& round, std::size_t num_next_cells) {
+  const bool is_for_more = std::any_of(
+      demands().begin(), demands().end(),
+      [&](const Demand& demand) { return !demand.is_minor && is_open(input, round, demand); });
+  return is_for_more || static_cast<double>(num_next_cells) <=
+                            kMinorGrowth * static_cast<double>(round.grid.num_cells());
+}
+
 /// The grid for the next round: leaves that hold a miss split, or, where the mean distance alone is
 /// missed, all of them a little smaller. Absent when there is nothing to split.
 std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const GridFrame& least,
@@ -140,16 +162,12 @@ std::optional<double> scale_for_mean(const RoundInput& input, const Round& round
 }
 
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
-  std::vector<Vec3> points;
-  for (const Demand& demand : demands()) {
-    if (!demand.places) continue;
-    const std::vector<Vec3> places = demand.places(input, round);
-    points.insert(points.end(), places.begin(), places.end());
-  }
   const int deepest = deepest_level(input.options);
-  std::vector<char> marks = mark_cells_with_points(round.grid, points, deepest);
-  const bool is_any_marked = std::find(marks.begin(), marks.end(), 1) != marks.end();
-  if (is_any_marked || has_expected_topology(input, round)) return marks;
+  std::vector<char> marks =
+      mark_cells_with_points(round.grid, collect_places(input, round, false), deepest);
+  if (std::find(marks.begin(), marks.end(), 1) != marks.end()) return marks;
+  if (has_expected_topology(input, round))
+    return mark_cells_with_points(round.grid, collect_places(input, round, true), deepest);
   // Near enough everywhere, and still pierced or bridged: at parts and gaps about a cell thick.
   return mark_cells_with_points(round.grid, round.fit.report.carve.thin, deepest);
 }
@@ -180,6 +198,7 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
     if (!finer) break;
     const bool is_split = result.rounds.back().num_marked > 0;
     CompleteResult next = even_out(input, *finer, !is_split);
+    if (!is_worth_its_cells(input, current, next.grid.num_cells())) break;
     const std::string exceeded =
         find_exceeded(input, current, next.grid.num_cells(), total_hexes, is_split);
     if (!exceeded.empty()) {
