@@ -1,6 +1,7 @@
 #include "relax/joint/lift.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -30,8 +31,14 @@ constexpr Stage kStages[] = {{0.001, 0.0035, 0.0008, 1, 0.35, false},
 constexpr std::size_t kNumStages = std::size(kStages), kNumLastStages = 2;
 constexpr double kCornerSlack = 0.00044;  // share of the diagonal
 
+// Outwards there is always room: thin parts would swell. What all solutions together may change, as
+// a share of the mesh's volume.
+constexpr double kVolumeChange = 0.002;
+
 constexpr int kRoundsPerStage = 2;
 constexpr std::size_t kMaxSeeds = 3;
+// Regions solved at most: where most of a mesh is poor, as of thin sheets, its shape is the bound.
+constexpr std::size_t kFewRegions = 1000, kHexesPerRegion = 40;
 constexpr std::size_t kBatch = 32;  // regions solved at the same time; fixed, so that the result is
 
 class JointLifter {
@@ -39,18 +46,21 @@ class JointLifter {
   JointLifter(FitState& state, const FitTarget& target)
       : state_(state),
         target_(target),
+        num_regions_left_(kFewRegions + state.mesh.num_hexes() / kHexesPerRegion),
         quality_(compute_scaled_jacobians(state.mesh)),
         batch_of_(state.mesh.num_hexes(), 0),
         hex_mark_(state.mesh.num_hexes(), 0),
         vert_mark_(state.num_verts(), 0),
-        is_tried_(state.mesh.num_hexes(), 0) {}
+        is_tried_(state.mesh.num_hexes(), 0) {
+    for (HexId h : state.mesh.hexes.ids()) volume_ += hex_volume(state.mesh.corners(h));
+  }
 
   void run(const JointStage& stage, const Context& context) {
     std::fill(is_tried_.begin(), is_tried_.end(), 0);
     for (int round = 0; round < kRoundsPerStage; ++round) {
       std::vector<HexId> queue = find_poor(stage.goal);
       if (queue.empty()) return;
-      while (!queue.empty()) {
+      while (!queue.empty() && num_regions_left_ > 0) {
         context.check_cancelled();
         solve_batch(take_batch(queue, stage.goal), stage);
       }
@@ -77,7 +87,7 @@ class JointLifter {
     std::vector<HexId> rest;
     ++num_batches_;
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      if (batch.size() == kBatch) {
+      if (batch.size() == std::min(kBatch, num_regions_left_)) {
         rest.insert(rest.end(), queue.begin() + static_cast<std::ptrdiff_t>(i), queue.end());
         break;
       }
@@ -100,6 +110,7 @@ class JointLifter {
       batch.emplace_back(state_, movable, hexes);
     }
     queue = std::move(rest);
+    num_regions_left_ -= batch.size();
     return batch;
   }
 
@@ -155,7 +166,7 @@ class JointLifter {
         },
         1);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (!solved[i]) continue;
+      if (!solved[i] || !spend_volume(solved[i]->volume_change())) continue;
       solved[i]->apply(state_);
       // What a neighbour's solution touched is worth another try.
       for (HexId h : batch[i].hexes()) {
@@ -165,8 +176,18 @@ class JointLifter {
     }
   }
 
+  // Whether the change is within what is left, or leads back to the volume that was.
+  bool spend_volume(double change) {
+    const double total = volume_change_ + change;
+    if (std::abs(total) > std::max(kVolumeChange * volume_, std::abs(volume_change_))) return false;
+    volume_change_ = total;
+    return true;
+  }
+
   FitState& state_;
   const FitTarget& target_;
+  double volume_ = 0, volume_change_ = 0;  // of all hexes
+  std::size_t num_regions_left_;
   IdVector<HexId, double> quality_;
   std::vector<int> batch_of_;              // per hex: the last batch with a region that holds it
   std::vector<int> hex_mark_, vert_mark_;  // per element: the last round of a search that met it

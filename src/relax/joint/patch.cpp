@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hexwright/quality/hex_quality.h"
+
 #include "relax/joint/guard.h"
 #include "relax/state/targets.h"
 
@@ -206,6 +208,19 @@ bool JointPatch::solve(const JointStage& stage) {
     return true;
   }
   return false;
+}
+
+double JointPatch::volume_change() const {
+  std::vector<Vec3> after(region_.verts().size());
+  for (std::size_t i = 0; i < after.size(); ++i)
+    after[i] = i < places_.size() ? places_[i].position : state_.mesh.positions[region_.verts()[i]];
+  double change = 0;
+  for (std::size_t k = 0; k < region_.hexes().size(); ++k) {
+    std::array<Vec3, 8> corners;
+    for (std::size_t lv = 0; lv < 8; ++lv) corners[lv] = after[region_.local_hexes()[k][lv]];
+    change += hex_volume(corners) - hex_volume(state_.mesh.corners(region_.hexes()[k]));
+  }
+  return change;
 }
 
 void JointPatch::apply(FitState& state) const {

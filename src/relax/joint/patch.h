@@ -40,6 +40,9 @@ class JointPatch {
   /// better place was found that the guard lets pass. Reads the state only.
   bool solve(const JointStage& stage);
 
+  /// By how much the solution changes the volume of the region's hexes.
+  double volume_change() const;
+
   /// Takes the solution over: positions, targets, arcs.
   void apply(FitState& state) const;
 
