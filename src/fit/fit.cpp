@@ -160,10 +160,10 @@ class Fitter {
     Attempt result = fit_features(carved, scaffold.state);
     arrive(result);
     std::shared_ptr<FitMemory> memory;
-    if (options_.lift_goal > 0)
+    if (is_lifting())
       memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
-    const bool is_poor = least_quality(result) < options_.lift_goal;
+    const bool is_poor = is_lifting() && least_quality(result) < options_.lift_goal;
     FitResult done = conclude(std::move(result));
     if (is_poor) done.memory = std::move(memory);
     return done;
@@ -279,6 +279,10 @@ class Fitter {
     update_targets(a.state, target(a), 0);
     a.verdicts = judge_curves(a.state, features_, a.mapping);
     return a;
+  }
+
+  bool is_lifting() const {
+    return options_.lift_goal > 0 && options_.patch_verts != PatchVerts::OnSurface;
   }
 
   bool is_selective() const {

@@ -193,6 +193,10 @@ TEST(JointLift, HasNothingToDoWhereTheGoalIsMetOrNoneIsSet) {
   options.lift_goal = 0;
   const HexMesh coarse = test::grid_around(plate.tree.box(), plate.diagonal() / 30);
   EXPECT_EQ(fit_unlifted(coarse, plate, options, {}).memory, nullptr);
+  options = high_goal();
+  EXPECT_NE(fit_unlifted(coarse, plate, options, {}).memory, nullptr);
+  options.patch_verts = PatchVerts::OnSurface;
+  EXPECT_EQ(fit_unlifted(coarse, plate, options, {}).memory, nullptr);
 }
 
 }  // namespace
