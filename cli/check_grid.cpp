@@ -11,6 +11,7 @@
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
+#include "hexwright/pipeline/option_names.h"
 
 namespace hexwright::cli {
 namespace {
@@ -25,9 +26,8 @@ struct GridVerdict {
   std::vector<std::string> failures;
 };
 
-const char* name_of(std::optional<Balance> balance) {
-  if (!balance) return "none";
-  return *balance == Balance::Strong ? "strong" : *balance == Balance::Weak ? "weak" : "relaxed";
+const char* balance_text(std::optional<Balance> balance) {
+  return balance ? name_of(kBalanceNames, *balance) : "none";
 }
 
 /// From the strictest on. Strong balance implies the others; weak balance, which looks across faces
@@ -66,7 +66,7 @@ std::string to_json(const Grid& grid, const GridCheck& check, const GridVerdict&
   json["cells"] = grid.num_cells();
   json["cells_per_level"] = count_cells_per_level(grid);
   json["roots"] = grid.roots.size();
-  json["balance"] = name_of(verdict.balance);
+  json["balance"] = balance_text(verdict.balance);
   json["pairing"] = verdict.unpaired ? "none" : "blocks";
   if (verdict.unpaired) json["first_unpaired"] = verdict.unpaired->message;
   if (!check.before.empty()) json["refines_input"] = !verdict.coarsened;
@@ -78,7 +78,7 @@ void print_verdict(const Grid& grid, const GridCheck& check, const GridVerdict& 
                    Console& console) {
   console.print(fmt::format("{}: {} cells, levels to {}, {} root cube(s)", check.input,
                             grid.num_cells(), grid.finest_level, grid.roots.size()));
-  console.print(fmt::format("  balance          {}", name_of(verdict.balance)));
+  console.print(fmt::format("  balance          {}", balance_text(verdict.balance)));
   console.print(fmt::format("  pairing          {}", verdict.unpaired ? "none" : "blocks"));
   if (verdict.unpaired && !check.needs_blocks)
     console.print(fmt::format("                   not by blocks: {}", verdict.unpaired->message));

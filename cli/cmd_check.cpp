@@ -44,13 +44,14 @@ bool is_grid(const std::string& path) {
   }
 }
 
+struct Judgement {
+  std::optional<SurfaceTree> surface;  ///< what it was judged against, for the page; else absent
+  Verdict verdict;
+};
+
 /// Against a surface, the mesh is judged by the features that sizing would see: the angles given,
 /// without short loose creases. Feature files refer to the surface as it was read, before it is
 /// prepared.
-struct Judgement {
-  std::optional<SurfaceTree> surface;  ///< what it was judged against
-  Verdict verdict;
-};
 Judgement judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& program) {
   const Context context = program.console.start(cmd.reference);
   if (cmd.reference.empty()) return {std::nullopt, judge(mesh, {}, context)};
@@ -60,9 +61,9 @@ Judgement judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& prog
   load_features(cmd.feature_file, surface, wishes.features);
   return naming_file(cmd.reference, [&] {
     const Target target = make_target(surface, wishes, context);
-    Judgement judgement{SurfaceTree(to_world(target.surface(), target.frame)),
-                        judge(to_unit(mesh, target.frame), target, {}, context)};
+    Judgement judgement{std::nullopt, judge(to_unit(mesh, target.frame), target, {}, context)};
     judgement.verdict.to_world(target.frame);
+    if (!cmd.view.empty()) judgement.surface.emplace(to_world(target.surface(), target.frame));
     return judgement;
   });
 }
@@ -131,7 +132,8 @@ void add_grid_demands(CLI::App& sub, CheckCommand& cmd) {
 void add_check_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<CheckCommand>();
   CLI::App* sub = app.add_subcommand("check", "Judge a hex mesh of any program, or a grid");
-  sub->add_option("input", cmd->input, "Hex mesh (MEDIT, VTK, VTU) or grid (.cells, .htg)")
+  sub->add_option("input", cmd->input,
+                  "Hex mesh (VTU, VTK, MEDIT, Gmsh, Abaqus) or grid (.cells, .htg)")
       ->required();
   sub->add_option("reference", cmd->reference,
                   "Of a mesh: the surface it stands for. Of a grid: the grid before completion, "
@@ -152,7 +154,7 @@ void add_check_command(CLI::App& app, Program& program) {
       "  hexwright check paired.cells grid.cells --balance weak --blocks");
   sub->callback([cmd, &program] {
     check_outputs({cmd->report, cmd->view}, {cmd->input, cmd->reference});
-    if (!cmd->view.empty()) require_extension(cmd->view, {".html"});
+    require_extension(cmd->view, {".html"});
     if (!cmd->view.empty() && cmd->is_of_grid())
       throw Error(ErrorCode::BadArgument, "--view shows meshes, not grids; leave it out",
                   cmd->input);

@@ -6,6 +6,7 @@
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/pipeline/option_names.h"
 #include "hexwright/pipeline/report.h"
 
 #include "commands.h"
@@ -32,7 +33,7 @@ void run(const DualCommand& cmd, Program& program) {
   if (!cmd.report.empty()) write_file_atomically(cmd.report, dual_to_json(result.report));
   program.console.print(
       fmt::format("{}: {} hexes ({}), scaled Jacobian min {:.3f}, average {:.3f}", cmd.output,
-                  result.mesh.num_hexes(), mode == DualMode::Blocks ? "blocks" : "sheets",
+                  result.mesh.num_hexes(), name_of(kDualModeNames, std::optional(mode)),
                   result.report.min_scaled_jacobian, result.report.avg_scaled_jacobian));
 }
 
@@ -42,8 +43,7 @@ void add_dual_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<DualCommand>();
   CLI::App* sub = app.add_subcommand("dual", "Conforming hex mesh of a completed grid");
   sub->add_option("input", cmd->input, "Completed grid: .cells, .htg, .vtu or .mesh")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
-      ->required();
+  add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   sub->add_option("--report", cmd->report, "Write counts as JSON");
   add_console_options(*sub, program);

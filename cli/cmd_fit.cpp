@@ -7,7 +7,6 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -26,6 +25,7 @@ struct FitCommand {
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
   require_mesh_format(cmd.output);
+  require_extension(cmd.picture, {".png"});
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
   const TriMesh surface = load_surface(cmd.surface, program);
@@ -49,8 +49,7 @@ void run(const FitCommand& cmd, Program& program) {
     return;
   }
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
-  if (!cmd.picture.empty())
-    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+  write_cut_picture(cmd.picture, result.mesh);
   JudgeOptions judged;
   if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
   Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
@@ -70,13 +69,12 @@ void add_fit_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("fit", "Carve a hex mesh and fit it to a surface");
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
   sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
-      ->required();
+  add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
-  sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  add_picture_option(*sub, cmd->picture);
   add_console_options(*sub, program);
   sub->footer("Example:\n  hexwright fit hexes.mesh part.stl -o part.vtu");
   sub->callback([cmd, &program] { run(*cmd, program); });

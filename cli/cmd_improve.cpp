@@ -52,9 +52,8 @@ void run(const ImproveCommand& cmd, Program& program) {
 void add_improve_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<ImproveCommand>();
   CLI::App* sub = app.add_subcommand("improve", "Better element shapes, same connectivity");
-  sub->add_option("input", cmd->input, "Hex mesh: MEDIT, VTK or VTU")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
-      ->required();
+  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh or Abaqus")->required();
+  add_mesh_output_option(*sub, cmd->output);
   sub->add_option("--slide-on", cmd->surface,
                   "Boundary vertices slide on this surface instead of staying");
   add_options(*sub, make_option_table(cmd->options));

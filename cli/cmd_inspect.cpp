@@ -22,7 +22,8 @@ void run(const InspectCommand& cmd, Program& program) {
   check_outputs({cmd.report}, {cmd.input});
   const Context context = program.console.start(cmd.input);
   const TriMesh surface = load_surface(cmd.input, program);
-  const SurfaceInspection inspection = inspect_surface(surface, cmd.options, context);
+  const SurfaceInspection inspection =
+      naming_file(cmd.input, [&] { return inspect_surface(surface, cmd.options, context); });
   program.console.clear_progress();
   if (!cmd.report.empty()) write_file_atomically(cmd.report, inspection_to_json(inspection));
   if (cmd.as_json)

@@ -9,7 +9,6 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -42,9 +41,9 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
 void run(const MeshCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.view, cmd.grid},
                 {cmd.input, cmd.features});
-  if (!cmd.picture.empty()) require_extension(cmd.picture, {".png"});
-  if (!cmd.view.empty()) require_extension(cmd.view, {".html"});
-  if (!cmd.grid.empty()) require_extension(cmd.grid, grid_extensions());
+  require_extension(cmd.picture, {".png"});
+  require_extension(cmd.view, {".html"});
+  require_extension(cmd.grid, grid_extensions());
   require_mesh_format(cmd.output, cmd.format);
   const Context context = program.console.start(cmd.input);
   const TriMesh as_read = load_surface(cmd.input, program);
@@ -63,8 +62,7 @@ void run(const MeshCommand& cmd, Program& program) {
   if (result.mesh.num_hexes() > 0) {
     info.changed_names =
         write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
-    if (!cmd.picture.empty())
-      write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+    write_cut_picture(cmd.picture, result.mesh);
     if (!cmd.view.empty())
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
   }
@@ -81,15 +79,14 @@ void add_mesh_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<MeshCommand>();
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
   sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
-      ->required();
+  add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   sub->add_flag("--strict", cmd->is_strict, "Whatever is warned of fails the gate (exit code 1)");
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
   add_format_option(*sub, cmd->format);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
-  sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  add_picture_option(*sub, cmd->picture);
   sub->add_option("--view", cmd->view, "Write a page to look into the mesh with (.html)");
   sub->add_option("--save-grid", cmd->grid,
                   "Write the completed grid (.cells, .htg, .vtu); the lattice then lies "

@@ -13,7 +13,6 @@
 #include "hexwright/pipeline/report.h"
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/verdict_json.h"
-#include "hexwright/render/picture.h"
 
 #include "commands.h"
 #include "options.h"
@@ -79,6 +78,8 @@ std::function<double(const Vec3&)> make_size_field(const PolycubeCommand& cmd,
 void run(const PolycubeCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture, cmd.grid}, {cmd.object, cmd.polycube});
   require_mesh_format(cmd.output);
+  require_extension(cmd.picture, {".png"});
+  require_extension(cmd.grid, grid_extensions());
   const Context context = program.console.start();
   const TetMesh object = read_tet_mesh(cmd.object), polycube = read_tet_mesh(cmd.polycube);
   PolycubeOptions options = cmd.options;
@@ -89,8 +90,7 @@ void run(const PolycubeCommand& cmd, Program& program) {
   program.console.clear_progress();
 
   write_mesh_with_quality(cmd.output, result.mesh, program.console);
-  if (!cmd.picture.empty())
-    write_png(cmd.picture, render_hex_mesh(result.mesh, make_default_view(result.mesh)));
+  write_cut_picture(cmd.picture, result.mesh);
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
   if (!cmd.report.empty()) write_file_atomically(cmd.report, to_json(result.report, verdict));
   print_summary(cmd, result, verdict, program.console);
@@ -118,12 +118,11 @@ void add_polycube_command(CLI::App& app, Program& program) {
   CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
   sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
   sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
-  sub->add_option("-o,--output", cmd->output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")
-      ->required();
+  add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
-  sub->add_option("--picture", cmd->picture, "Write a cut through the mesh as PNG");
+  add_picture_option(*sub, cmd->picture);
   sub->add_option("--save-grid", cmd->grid, "Write the grid on the polycube's lattice");
   add_console_options(*sub, program);
   sub->footer("Example:\n  hexwright polycube object.mesh cube.mesh -o object.vtu --max-level 4");

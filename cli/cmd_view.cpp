@@ -38,10 +38,8 @@ std::string temporary_page(const std::string& input) {
 }
 
 void run(const ViewCommand& cmd, Program& program) {
-  if (!cmd.output.empty()) {
-    require_extension(cmd.output, {".html"});
-    check_outputs({cmd.output}, {cmd.input, cmd.surface});
-  }
+  require_extension(cmd.output, {".html"});
+  check_outputs({cmd.output}, {cmd.input, cmd.surface});
   const Context context = program.console.start(cmd.input);
   const HexMesh mesh = read_hex_mesh(cmd.input);
   std::optional<SurfaceTree> tree;
@@ -61,7 +59,7 @@ void run(const ViewCommand& cmd, Program& program) {
 void add_view_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<ViewCommand>();
   CLI::App* sub = app.add_subcommand("view", "Look into a hex mesh in the browser");
-  sub->add_option("input", cmd->input, "Hex mesh: MEDIT, VTK or VTU")->required();
+  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh or Abaqus")->required();
   sub->add_option("surface", cmd->surface,
                   "Surface that it stands for, to be drawn over it: OBJ, OFF, STL or PLY");
   sub->add_option("-o,--output", cmd->output, "Page: .html [a new folder for temporary files]");

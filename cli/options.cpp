@@ -94,9 +94,17 @@ const std::vector<std::string>& grid_extensions() {
 
 /// Before the work, like all checks of outputs.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions) {
-  if (!has_extension(path, extensions))
+  if (!path.empty() && !has_extension(path, extensions))
     throw CLI::ValidationError(fmt::format("cannot write '{}': the extension must be one of {}",
                                            path, fmt::join(extensions, ", ")));
+}
+
+void add_mesh_output_option(CLI::App& cmd, std::string& output) {
+  cmd.add_option("-o,--output", output, "Mesh: .vtu, .vtk, .msh, .inp, polyMesh ...")->required();
+}
+
+void add_picture_option(CLI::App& cmd, std::string& picture) {
+  cmd.add_option("--picture", picture, "Write a cut through the mesh as PNG");
 }
 
 void require_mesh_format(const std::string& path, const std::string& format) {

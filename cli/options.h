@@ -28,7 +28,14 @@ void load_features(const std::string& file, const TriMesh& surface, FeatureOptio
 /// A share of the diagonal: "0.5%" or "0.005". Throws CLI::ValidationError naming the option.
 double read_share(const std::string& option, const std::string& text);
 
-/// Fails early, before hours of work, when an output's extension is not among `extensions`.
+/// -o, a hex mesh.
+void add_mesh_output_option(CLI::App& cmd, std::string& output);
+
+/// --picture, for write_cut_picture().
+void add_picture_option(CLI::App& cmd, std::string& picture);
+
+/// Fails early, before hours of work, when an output's extension is not among `extensions`. An
+/// empty path is an option that was not given.
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// The same for hex meshes: the format by its name, or by the extension when the name is empty.

@@ -9,6 +9,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/quality/hex_quality.h"
+#include "hexwright/render/picture.h"
 
 namespace hexwright::cli {
 
@@ -82,6 +83,10 @@ std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh
     console.warn(path + ": the set '" + name.given + "' is called '" + name.written +
                  "', because the format does not allow its name");
   return std::move(result.changed_names);
+}
+
+void write_cut_picture(const std::string& path, const HexMesh& mesh) {
+  if (!path.empty()) write_png(path, render_hex_mesh(mesh, make_default_view(mesh)));
 }
 
 }  // namespace hexwright::cli

@@ -28,4 +28,7 @@ std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const 
 std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh, Console& console,
                                     const WriteHexOptions& options);
 
+/// A cut through the mesh as PNG; nothing for an empty path.
+void write_cut_picture(const std::string& path, const HexMesh& mesh);
+
 }  // namespace hexwright::cli

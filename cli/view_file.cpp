@@ -14,6 +14,21 @@
 extern char** environ;
 
 namespace hexwright::cli {
+namespace {
+
+/// The level of the grid's cell that each hex's centre lies in; 0 outside of the grid.
+HexField find_levels(const MeshResult& result) {
+  HexField levels{"level", std::vector<double>(result.mesh.num_hexes(), 0)};
+  parallel_for(result.mesh.num_hexes(), [&](std::size_t i) {
+    Vec3 center;
+    for (const Vec3& p : result.mesh.corners(HexId(i))) center += p / 8;
+    const CellId cell = find_leaf_at(result.grid, result.pose.apply(center));
+    if (cell.is_valid()) levels.values[i] = result.grid.cells[cell].level;
+  });
+  return levels;
+}
+
+}  // namespace
 
 void write_view(const std::string& path, const HexMesh& mesh, const ViewOptions& options) {
   write_file_atomically(path, make_view_page(mesh, options));
@@ -28,17 +43,6 @@ void write_view(const std::string& path, const MeshResult& result, const TriMesh
   options.surface = &tree;
   options.fields.push_back(find_levels(result));
   write_view(path, result.mesh, options);
-}
-
-HexField find_levels(const MeshResult& result) {
-  HexField levels{"level", std::vector<double>(result.mesh.num_hexes(), 0)};
-  parallel_for(result.mesh.num_hexes(), [&](std::size_t i) {
-    Vec3 center;
-    for (const Vec3& p : result.mesh.corners(HexId(i))) center += p / 8;
-    const CellId cell = find_leaf_at(result.grid, result.pose.apply(center));
-    if (cell.is_valid()) levels.values[i] = result.grid.cells[cell].level;
-  });
-  return levels;
 }
 
 bool open_in_browser(const std::string& path) {

@@ -15,10 +15,6 @@ void write_view(const std::string& path, const HexMesh& mesh, const ViewOptions&
 void write_view(const std::string& path, const MeshResult& result, const TriMesh& surface,
                 const std::string& title);
 
-/// The level of the grid's cell that each hex's centre lies in; the least level outside of the
-/// grid.
-HexField find_levels(const MeshResult& result);
-
 /// Hands a file to the desktop's browser; false where there is no desktop or none that could be
 /// asked.
 bool open_in_browser(const std::string& path);

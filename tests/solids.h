@@ -1,12 +1,38 @@
-// Curved closed surfaces with sharp edges, for tests.
+// Closed surfaces with sharp edges, and several as one, for tests.
 #pragma once
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "hexwright/mesh/tri_mesh.h"
 
+#include "helpers.h"
+#include "mesh/tri_measures.h"
+
 namespace hexwright::test {
+
+/// A box of two triangles per side.
+inline TriMesh box_surface(const Vec3& lo, const Vec3& hi) {
+  TriMesh box = unit_cube_surface();
+  for (Vec3& p : box.positions)
+    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
+  return box;
+}
+
+/// Inside out.
+inline TriMesh reversed(TriMesh surface) {
+  for (auto& t : surface.tris) std::swap(t[1], t[2]);
+  return surface;
+}
+
+/// Several surfaces as one, as in a file: unwelded, without names.
+inline TriMesh joined(const std::vector<TriMesh>& parts) {
+  TriMesh all;
+  for (const TriMesh& part : parts) append(all, part);
+  return all;
+}
 
 /// A closed cylinder along z about (x, y) = (center, center).
 inline TriMesh cylinder_surface(double center, double radius, double z0, double z1, int segments) {

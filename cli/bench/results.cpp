@@ -103,7 +103,8 @@ fs::path picture_file(const fs::path& out, const std::string& name, const std::s
 }
 
 fs::path page_file(const fs::path& out, const std::string& name) {
-  return out / "pages" / (name + ".html");
+  fs::path file = out / "pages" / to_result_path(name);
+  return file += ".html";
 }
 
 Json load_record(const fs::path& out, const BenchModel& model) {

@@ -42,6 +42,13 @@ def mesh_part(path: str, out: str, tolerance: str) -> dict[str, Any]:
     }
 
 
+def write_json(path: Path, value: Any) -> None:
+    """Whole or not at all: a run may be stopped at any time."""
+    aside = path.with_name(path.name + ".part")
+    aside.write_text(json.dumps(value, indent=1))
+    aside.replace(path)
+
+
 def is_done(record: Path, tolerance: str) -> bool:
     if not record.exists():
         return False
@@ -65,14 +72,14 @@ def run(client: Any, folder: Path, out: Path, tolerance: str, retries: int) -> d
         else:  # it failed as often as it was tried: no record, so that the next run tries it again
             print(f"{part.name}: {future.exception()}", file=sys.stderr)
             continue
-        (out / f"{part.name}.json").write_text(json.dumps(record, indent=1))
+        write_json(out / f"{part.name}.json", record)
         print(f"{part.name}: {record['status']}")
     counts: dict[str, int] = {}
     for part in parts:
         file = out / f"{part.name}.json"
         status = json.loads(file.read_text())["status"] if file.exists() else "failed"
         counts[status] = counts.get(status, 0) + 1
-    (out / "summary.json").write_text(json.dumps(counts, indent=1))
+    write_json(out / "summary.json", counts)
     return counts
 
 

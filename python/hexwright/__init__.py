@@ -5,12 +5,13 @@
 >>> mesh.save("part.vtu")             # doctest: +SKIP
 """
 from ._core import version as __version__
-from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, InvalidMesh, OutOfResources
+from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, OutOfResources
 from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface
-from ._mesh import Facets, HexMesh, read
+from ._mesh import Facets, HexMesh, InvalidMesh, read
 from ._options import Option, options
-from ._stages import Verdict, check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
+from ._stages import check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
+from ._verdict import Verdict
 
 __all__ = [
     "BadGeometry",

@@ -69,13 +69,9 @@ def to_skfem(mesh: HexMesh) -> Any:
         result = result.with_boundaries(boundaries)
     tags = np.unique(mesh.regions)
     if len(tags) > 1:
-        result = result.with_subdomains({_region_name(mesh, tag): np.flatnonzero(mesh.regions == tag) for tag in tags})
+        names = {tag: mesh._core.region_name(int(tag)) for tag in tags}
+        result = result.with_subdomains({name: np.flatnonzero(mesh.regions == tag) for tag, name in names.items()})
     return result
-
-
-def _region_name(mesh: HexMesh, tag: int) -> str:
-    names = mesh.region_names
-    return names[tag] if 0 <= tag < len(names) and names[tag] else f"REGION_{tag}"
 
 
 def _as_keys(rows: NDArray[Any]) -> NDArray[np.bytes_]:
@@ -96,8 +92,5 @@ def to_png(pixels: NDArray[np.uint8]) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b"")
 
 
-def to_png_tag(mesh: HexMesh) -> str:
-    if not len(mesh.hexes):
-        return ""
-    data = base64.b64encode(to_png(mesh.image(width=560, height=420))).decode()
-    return f'<img alt="a cut through the mesh" src="data:image/png;base64,{data}">'
+def to_png_tag(pixels: NDArray[np.uint8], text: str) -> str:
+    return f'<img alt="{text}" src="data:image/png;base64,{base64.b64encode(to_png(pixels)).decode()}">'

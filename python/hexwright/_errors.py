@@ -1,10 +1,4 @@
-"""What can go wrong, as exceptions. Messages name the place and the remedy."""
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from ._mesh import HexMesh
+"""What can go wrong, as exceptions (``InvalidMesh`` is beside the mesh it holds). Messages name the place and the remedy."""
 
 
 class HexwrightError(Exception):
@@ -33,20 +27,6 @@ class OutOfResources(HexwrightError, MemoryError):
 
 class Cancelled(HexwrightError):
     """``progress`` returned False."""
-
-
-class InvalidMesh(HexwrightError):
-    """With ``strict=True``: the mesh was made but misses the gate.
-
-    Attributes
-    ----------
-    mesh : HexMesh
-        The mesh all the same: to look at it is the way to see why.
-    """
-
-    def __init__(self, mesh: HexMesh):
-        super().__init__("; ".join(mesh.failures))
-        self.mesh = mesh
 
 
 class HexwrightWarning(UserWarning):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import BadInput
-from ._inputs import PathLike, to_array
+from ._inputs import PathLike, is_path, to_array
 from ._mesh import HexMesh
 
 
@@ -34,6 +34,13 @@ class Grid:
     ------
     BadInput
         When cells overlap, leave a gap, or lie outside the roots; names the first.
+
+    Attributes
+    ----------
+    report : dict
+        What the stage that made the grid says about it; empty for grids from files and arrays.
+    warnings : list of str
+        What it warned of.
 
     Examples
     --------
@@ -62,16 +69,15 @@ class Grid:
         place = [float(x) for x in origin]
         self._take(_core.Grid(to_array(levels, "levels"), to_array(indices, "indices"), cubes, place, float(size)))
 
-    def _take(self, core: _core.Grid) -> None:
+    def _take(self, core: _core.Grid, report: dict[str, Any] | None = None, warnings: Sequence[str] = ()) -> None:
         self._core = core
-        self.report: dict[str, Any] = {}
-        self.warnings: list[str] = []
+        self.report: dict[str, Any] = report or {}
+        self.warnings: list[str] = list(warnings)
 
     @classmethod
-    def _wrap(cls, core: _core.Grid, report: dict[str, Any] | None = None) -> Grid:
+    def _wrap(cls, core: _core.Grid, report: dict[str, Any] | None = None, warnings: Sequence[str] = ()) -> Grid:
         grid = cls.__new__(cls)
-        grid._take(core)
-        grid.report = report or {}
+        grid._take(core, report, warnings)
         return grid
 
     @property
@@ -175,6 +181,6 @@ def as_grid(grid: Any) -> Grid:
     """A Grid or a path."""
     if isinstance(grid, Grid):
         return grid
-    if isinstance(grid, (str, os.PathLike)):
+    if is_path(grid):
         return read_grid(grid)
     raise BadInput(f"grid: {type(grid).__name__} is no grid; give a hexwright.Grid or a path")

@@ -32,6 +32,8 @@ def to_array(values: Any, name: str) -> NDArray[Any]:
         array = array.astype(np.float64)
     if not array.dtype.isnative:
         array = array.astype(array.dtype.newbyteorder("="))
+    if any(stride % array.itemsize for stride in array.strides):  # a field of records
+        array = array.copy()
     return array
 
 
@@ -48,7 +50,6 @@ class Surface:
         Positions, of any number type. Copied once.
     faces : array_like, shape (m, 3)
         Vertex numbers from 0, counter-clockwise seen from outside.
-
     patches : mapping of str to array_like or str, optional
         Names of parts of the surface, each with its faces: their numbers, a truth value per face, or a rule as the command
         line's ``--patch`` takes, such as ``"plane:x<0.1"``. Where two parts meet is an edge that the mesh follows.
@@ -226,7 +227,7 @@ class TetMesh:
 
 
 def as_tets(tets: Any) -> TetMesh:
-    """A path (.mesh, .vtk, .vtu), a pair of arrays, or a meshio.Mesh."""
+    """A path (MEDIT, VTK, VTU, Gmsh, Abaqus), a pair of arrays, or a meshio.Mesh."""
     if isinstance(tets, TetMesh):
         return tets
     if is_path(tets):

@@ -8,16 +8,17 @@ import re
 import tempfile
 import warnings
 import webbrowser
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
-from ._errors import BadInput, HexwrightWarning
-from ._inputs import PathLike, as_surface, to_array
+from . import _convert, _core
+from ._errors import BadInput, HexwrightError, HexwrightWarning
+from ._inputs import PathLike, as_surface, is_path, to_array
+from ._verdict import judge
 
 if TYPE_CHECKING:
     from ._grid import Grid
@@ -47,8 +48,6 @@ class HexMesh:
     ----------
     report : dict
         What the stage that made the mesh says about it; empty for meshes from files and arrays.
-    failures : list of str
-        Why the mesh is not valid, one sentence each.
     warnings : list of str
         What else fell short.
     grid : Grid or None
@@ -60,18 +59,31 @@ class HexMesh:
         tags = None if regions is None else to_array(regions, "regions")
         self._take(_core.HexMesh(to_array(points, "points"), to_array(hexes, "hexes"), tags))
 
-    def _take(self, core: _core.HexMesh) -> None:
+    def _take(
+        self,
+        core: _core.HexMesh,
+        report: dict[str, Any] | None = None,
+        warnings: Sequence[str] = (),
+        failures: list[str] | None = None,
+    ) -> None:
         self._core = core
-        self.report: dict[str, Any] = {}
-        self.failures: list[str] = []
-        self.warnings: list[str] = []
+        self.report: dict[str, Any] = report or {}
+        self.warnings: list[str] = list(warnings)
         self.grid: Grid | None = None
+        if failures is not None:
+            self.failures = failures
 
     @classmethod
-    def _wrap(cls, core: _core.HexMesh, report: dict[str, Any] | None = None) -> HexMesh:
+    def _wrap(
+        cls,
+        core: _core.HexMesh,
+        report: dict[str, Any] | None = None,
+        warnings: Sequence[str] = (),
+        failures: list[str] | None = None,
+    ) -> HexMesh:
+        """``failures`` are those of the stage's gate; None when it has none."""
         mesh = cls.__new__(cls)
-        mesh._take(core)
-        mesh.report = report or {}
+        mesh._take(core, report, warnings, failures)
         return mesh
 
     @property
@@ -141,14 +153,15 @@ class HexMesh:
         values: NDArray[np.float64] = self._core.quality(measure)
         return values
 
+    @cached_property
+    def failures(self) -> list[str]:
+        """Why the mesh is not valid, one sentence each: by the gate of the stage that made it, or else by ``check`` without
+        a surface, which is called when this is first asked for."""
+        return judge(self._core).failures
+
     @property
     def valid(self) -> bool:
-        """Whether the mesh passed the gate of the stage that made it, or else ``check`` without a surface."""
-        if not self.report and not self.failures:
-            from ._stages import check
-
-            verdict = check(self)
-            self.report, self.failures = verdict.report, verdict.failures
+        """Whether there are no ``failures``."""
         return not self.failures
 
     def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None, format: str = "") -> None:
@@ -174,10 +187,12 @@ class HexMesh:
     def view(self, path: PathLike | None = None, surface: Any = None, open: bool = True) -> str:
         """Writes a page to look into the mesh with, and opens it in a browser: cut, peel, filter by quality, names.
 
+        The same page as ``hexwright view`` writes. The file appears whole or not at all.
+
         Parameters
         ----------
         path : path-like, optional
-            The page (.html), which needs no network; a temporary file when left out.
+            The page (.html), which needs no network; in a new folder for temporary files when left out.
         surface : as for ``mesh``, optional
             Drawn over the mesh.
         open : bool
@@ -189,34 +204,24 @@ class HexMesh:
             The page's path.
         """
         against = None if surface is None else as_surface(surface)._core
-        page = _core.view_page(self._core, "mesh" if path is None else pathlib.Path(path).stem, against)
-        if path is None:
-            handle, name = tempfile.mkstemp(".html", "hexwright_")
-            os.close(handle)
-        else:
-            name = os.fspath(path)
-        pathlib.Path(name).write_text(page, encoding="utf-8")
+        name = os.path.join(tempfile.mkdtemp(prefix="hexwright-"), "mesh.html") if path is None else os.fspath(path)
+        page = pathlib.Path(name)
+        _core.write_view(name, self._core, page.stem, against)
         if open:
-            webbrowser.open(pathlib.Path(name).resolve().as_uri())
+            webbrowser.open(page.resolve().as_uri())
         return name
 
     def to_pyvista(self) -> Any:
         """A ``pyvista.UnstructuredGrid`` with cell data ``region`` and ``scaled_jacobian``. Points are copied."""
-        from ._convert import to_pyvista
-
-        return to_pyvista(self)
+        return _convert.to_pyvista(self)
 
     def to_meshio(self) -> Any:
         """A ``meshio.Mesh`` of hexes, patches' quads, curves' edges and corners, with a cell set per name."""
-        from ._convert import to_meshio
-
-        return to_meshio(self)
+        return _convert.to_meshio(self)
 
     def to_skfem(self) -> Any:
         """A ``skfem.MeshHex`` with a boundary per patch and a subdomain per region."""
-        from ._convert import to_skfem
-
-        return to_skfem(self)
+        return _convert.to_skfem(self)
 
     def image(self, cut: str = "auto", at: float = 0.5, width: int = 800, height: int = 600) -> NDArray[np.uint8]:
         """A picture drawn without a display: cut open, coloured by the scaled Jacobian.
@@ -250,18 +255,31 @@ class HexMesh:
         return f"<hexwright.HexMesh: {len(self.hexes)} hexes, {len(self.points)} points, {len(self.patches)} patches>"
 
     def _repr_html_(self) -> str:
-        from ._convert import to_png_tag
-
-        quality = self.quality() if len(self.hexes) else np.zeros(1)
-        rows = {
-            "hexes": f"{len(self.hexes):,}",
-            "points": f"{len(self.points):,}",
-            "scaled Jacobian": f"least {quality.min():.3f}, average {quality.mean():.3f}",
-            "patches": ", ".join(list(self.patches)[:12]) + (" …" if len(self.patches) > 12 else ""),
-            "failures": "; ".join(self.failures) or "none",
-        }
+        """For notebooks: the picture of ``image``, and figures. ``view`` is the page to look into the mesh with."""
+        rows = {"hexes": f"{len(self.hexes):,}", "points": f"{len(self.points):,}"}
+        picture = ""
+        if len(self.hexes):
+            quality = self.quality()
+            rows["scaled Jacobian"] = f"least {quality.min():.3f}, average {quality.mean():.3f}"
+            picture = _convert.to_png_tag(self.image(width=560, height=420), "a cut through the mesh")
+        rows["patches"] = ", ".join(list(self.patches)[:12]) + (" …" if len(self.patches) > 12 else "")
+        rows["failures"] = "; ".join(self.failures) or "none"
         cells = "".join(f"<tr><th>{k}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
-        return f"<div>{to_png_tag(self)}<table>{cells}</table></div>"
+        return f"<div>{picture}<table>{cells}</table></div>"
+
+
+class InvalidMesh(HexwrightError):
+    """With ``strict=True``: the mesh was made but misses the gate.
+
+    Attributes
+    ----------
+    mesh : HexMesh
+        The mesh all the same: to look at it is the way to see why.
+    """
+
+    def __init__(self, mesh: HexMesh):
+        super().__init__("; ".join(mesh.failures))
+        self.mesh = mesh
 
 
 def _tell_apart(names: list[str]) -> list[str]:
@@ -270,7 +288,7 @@ def _tell_apart(names: list[str]) -> list[str]:
 
 
 def read(path: PathLike) -> HexMesh:
-    """Reads a hex mesh of any program: MEDIT, legacy VTK or VTU.
+    """Reads a hex mesh of any program: VTU, legacy VTK, MEDIT, Gmsh or Abaqus, by content first and extension second.
 
     Parameters
     ----------
@@ -293,7 +311,7 @@ def as_mesh(mesh: Any) -> HexMesh:
     """A HexMesh, a path, a pair of arrays, or a meshio.Mesh with hexes."""
     if isinstance(mesh, HexMesh):
         return mesh
-    if isinstance(mesh, (str, os.PathLike)):
+    if is_path(mesh):
         return read(mesh)
     if isinstance(mesh, tuple) and len(mesh) in (2, 3):
         return HexMesh(*mesh)

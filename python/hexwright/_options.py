@@ -11,7 +11,7 @@ from ._errors import BadInput
 
 Progress = Callable[[str, float], Any]
 
-STAGES = ("mesh", "grid", "complete", "dual", "fit", "improve", "polycube", "check", "evaluate")
+STAGES = tuple(_core.stage_names())
 
 
 class Option(NamedTuple):
@@ -45,7 +45,9 @@ def options(stage: str) -> list[Option]:
     return [Option(row[0].replace("-", "_"), *row[1:]) for row in _core.option_table(stage)]
 
 
-def to_call(stage: str, given: Mapping[str, Any], progress: Progress | None, threads: int | None) -> _core.Call:
+def to_call(
+    stage: str, given: Mapping[str, Any], progress: Progress | None = None, threads: int | None = None
+) -> _core.Call:
     """What the compiled stages are called with. An unknown keyword is a TypeError, as of any function."""
     known = [option.name for option in options(stage)]
     texts: dict[str, str] = {}
@@ -62,7 +64,7 @@ def to_call(stage: str, given: Mapping[str, Any], progress: Progress | None, thr
 
 
 def _to_text(name: str, value: Any) -> str:
-    if hasattr(value, "item"):  # scalars of numpy
+    if getattr(value, "shape", None) == ():  # scalars of numpy
         value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._errors import BadInput, HexwrightWarning, InvalidMesh
+from ._errors import BadInput, HexwrightWarning
 from ._grid import Grid, as_grid
 from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets
-from ._mesh import HexMesh, as_mesh
+from ._mesh import HexMesh, InvalidMesh, as_mesh
 from ._options import Progress, to_call
+from ._verdict import Verdict, judge
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -30,35 +31,6 @@ if TYPE_CHECKING:
         MeshOptions,
         PolycubeOptions,
     )
-
-
-class Verdict:
-    """What ``check`` found.
-
-    Attributes
-    ----------
-    valid : bool
-    failures, warnings : list of str
-        One sentence each.
-    report : dict
-        Topology, quality and, with a surface, distance and features. Distances are shares of the diagonal.
-    """
-
-    def __init__(self, report: dict[str, Any], text: str):
-        self.report = report
-        self.valid: bool = report["valid"]
-        self.failures: list[str] = report["failures"]
-        self.warnings: list[str] = report.get("warnings", [])
-        self._text = text
-
-    def __bool__(self) -> bool:
-        return self.valid
-
-    def __str__(self) -> str:
-        return self._text
-
-    def __repr__(self) -> str:
-        return f"<hexwright.Verdict: {'valid' if self.valid else 'not valid: ' + '; '.join(self.failures)}>"
 
 
 def _finish(mesh: HexMesh, strict: bool) -> HexMesh:
@@ -130,11 +102,10 @@ def mesh(
     """
     given = as_surface(surface, faces, patches)
     call = to_call("mesh", options, progress, threads)
-    core, grid, report = _core.mesh(given._core, as_edges(features), call)
-    result = HexMesh._wrap(core, json.loads(report))
+    core, grid, text = _core.mesh(given._core, as_edges(features), call)
+    report = json.loads(text)
+    result = HexMesh._wrap(core, report, given.warnings + report["warnings"], report["failures"])
     result.grid = Grid._wrap(grid)
-    result.failures = result.report["failures"]
-    result.warnings = given.warnings + result.report["warnings"]
     return _finish(result, strict)
 
 
@@ -159,9 +130,7 @@ def grid(
     """
     given = as_surface(surface, faces, patches)
     core, report, warnings = _core.grid(given._core, as_edges(features), to_call("grid", options, progress, threads))
-    result = Grid._wrap(core, json.loads(report))
-    result.warnings = given.warnings + warnings
-    return result
+    return Grid._wrap(core, json.loads(report), given.warnings + warnings)
 
 
 def complete(
@@ -185,9 +154,7 @@ def complete(
         Its cells refine those of the input. ``report`` counts them.
     """
     core, report, warnings = _core.complete(as_grid(grid)._core, to_call("complete", options, progress, threads))
-    result = Grid._wrap(core, json.loads(report))
-    result.warnings = warnings
-    return result
+    return Grid._wrap(core, json.loads(report), warnings)
 
 
 def dual(
@@ -207,9 +174,7 @@ def dual(
         Those of ``hexwright dual``: ``mode`` and ``no_optimize``.
     """
     core, report, warnings = _core.dual(as_grid(grid)._core, to_call("dual", options, progress, threads))
-    result = HexMesh._wrap(core, {"dual": json.loads(report)})
-    result.warnings = warnings
-    return result
+    return HexMesh._wrap(core, {"dual": json.loads(report)}, warnings)
 
 
 def fit(
@@ -240,10 +205,10 @@ def fit(
     """
     given = as_surface(surface, patches=patches)
     call = to_call("fit", options, progress, threads)
-    core, report, verdict, warnings = _core.fit(as_mesh(mesh)._core, given._core, as_edges(features), call)
-    result = HexMesh._wrap(core, {"fit": json.loads(report), "verdict": json.loads(verdict)})
-    result.failures = result.report["verdict"]["failures"]
-    result.warnings = given.warnings + warnings + result.report["verdict"]["warnings"]
+    core, report, text, warnings = _core.fit(as_mesh(mesh)._core, given._core, as_edges(features), call)
+    verdict = json.loads(text)
+    warnings = given.warnings + warnings + verdict["warnings"]
+    result = HexMesh._wrap(core, {"fit": json.loads(report), "verdict": verdict}, warnings, verdict["failures"])
     return _finish(result, strict)
 
 
@@ -270,9 +235,7 @@ def check(
     if features is not None and surface is None:
         raise BadInput("features: are edges of the surface; give the surface too")
     against = None if surface is None else as_surface(surface)._core
-    call = to_call("check", options, progress, threads)
-    report, text, _ = _core.check(as_mesh(mesh)._core, against, as_edges(features), call)
-    return Verdict(json.loads(report), text)
+    return judge(as_mesh(mesh)._core, against, as_edges(features), to_call("check", options, progress, threads))
 
 
 def improve(
@@ -302,11 +265,9 @@ def improve(
     against = None if surface is None else as_surface(surface)._core
     call = to_call("improve", options, progress, threads)
     core, report, warnings = _core.improve(as_mesh(mesh)._core, against, call)
-    result = HexMesh._wrap(core, report)
-    result.warnings = warnings
-    if report["min_after"] <= 0:
-        result.failures = ["some hexes are still inverted"]
-    return _finish(result, strict=False)
+    if report["min_after"] > 0:
+        return HexMesh._wrap(core, report, warnings)
+    return _finish(HexMesh._wrap(core, report, warnings, ["some hexes are still inverted"]), strict=False)
 
 
 def polycube(
@@ -335,25 +296,21 @@ def polycube(
     HexMesh
         Patches are the polycube's faces. ``grid`` lies on the polycube's lattice.
     """
-    field = _to_field(max_edge)
+    if max_edge is not None and not callable(max_edge):
+        max_edge = _to_length(max_edge, "max_edge")
     call = to_call("polycube", options, progress, threads)
-    core, grid, report, verdict, warnings = _core.polycube(as_tets(object)._core, as_tets(cube)._core, field, call)
-    result = HexMesh._wrap(core, {"polycube": json.loads(report), "verdict": json.loads(verdict)})
+    core, grid, report, text, warnings = _core.polycube(as_tets(object)._core, as_tets(cube)._core, max_edge, call)
+    verdict = json.loads(text)
+    result = HexMesh._wrap(core, {"polycube": json.loads(report), "verdict": verdict}, warnings, verdict["failures"])
     result.grid = Grid._wrap(grid)
-    result.failures = result.report["verdict"]["failures"]
-    result.warnings = warnings
     return _finish(result, strict)
 
 
-def _to_field(size: float | Callable[[float, float, float], float] | None) -> Callable[..., float] | None:
-    if size is None:
-        return None
-    if callable(size):
-        return size
-    edge = float(size)
-    if not (np.isfinite(edge) and edge > 0):
-        raise BadInput(f"max_edge: {size} is not a length above 0")
-    return lambda x, y, z: edge
+def _to_length(value: float, name: str) -> float:
+    length = float(value)
+    if not (np.isfinite(length) and length > 0):
+        raise BadInput(f"{name}: {value} is not a length above 0")
+    return length
 
 
 def evaluate(

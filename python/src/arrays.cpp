@@ -3,7 +3,8 @@
 #include "arrays.h"
 
 #include <cmath>
-#include <limits>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,41 +45,27 @@ void visit_as(const AnyArray& array, std::size_t columns, Use&& use) {
                static_cast<std::int64_t>(k) * column_stride]);
 }
 
-/// Calls use(row, column, value) with the elements in order; false when they are no integers.
-template <class Use>
-bool visit_integers(const AnyArray& array, std::size_t columns, Use&& use) {
-  const nb::dlpack::dtype type = array.dtype();
-  const auto is = [&](nb::dlpack::dtype other) { return type == other; };
-  if (is(nb::dtype<std::int32_t>()))
-    visit_as<std::int32_t>(array, columns, use);
-  else if (is(nb::dtype<std::int64_t>()))
-    visit_as<std::int64_t>(array, columns, use);
-  else if (is(nb::dtype<std::uint32_t>()))
-    visit_as<std::uint32_t>(array, columns, use);
-  else if (is(nb::dtype<std::uint64_t>()))
-    visit_as<std::uint64_t>(array, columns, use);
-  else if (is(nb::dtype<std::int16_t>()))
-    visit_as<std::int16_t>(array, columns, use);
-  else if (is(nb::dtype<std::uint16_t>()))
-    visit_as<std::uint16_t>(array, columns, use);
-  else if (is(nb::dtype<std::int8_t>()))
-    visit_as<std::int8_t>(array, columns, use);
-  else if (is(nb::dtype<std::uint8_t>()))
-    visit_as<std::uint8_t>(array, columns, use);
-  else
-    return false;
-  return true;
+/// Calls use(row, column, value) with the elements in order when they are of one of these types;
+/// false when they are of another.
+template <class... Types, class Use>
+bool visit(const AnyArray& array, std::size_t columns, Use&& use) {
+  const auto visit_if = [&]<class T>(std::type_identity<T>) {
+    if (array.dtype() != nb::dtype<T>()) return false;
+    visit_as<T>(array, columns, use);
+    return true;
+  };
+  return (visit_if(std::type_identity<Types>()) || ...);
 }
 
-/// The same for floating-point numbers and integers, as doubles.
+template <class Use>
+bool visit_integers(const AnyArray& array, std::size_t columns, Use&& use) {
+  return visit<std::int32_t, std::int64_t, std::uint32_t, std::uint64_t, std::int16_t,
+               std::uint16_t, std::int8_t, std::uint8_t>(array, columns, use);
+}
+
 template <class Use>
 void visit_numbers(const AnyArray& array, std::size_t columns, const std::string& name, Use&& use) {
-  const nb::dlpack::dtype type = array.dtype();
-  if (type == nb::dtype<double>())
-    visit_as<double>(array, columns, use);
-  else if (type == nb::dtype<float>())
-    visit_as<float>(array, columns, use);
-  else if (!visit_integers(array, columns, use))
+  if (!visit<double, float>(array, columns, use) && !visit_integers(array, columns, use))
     refuse(name, "must hold integers or floating-point numbers");
 }
 

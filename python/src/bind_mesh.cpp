@@ -1,6 +1,4 @@
 // Hex meshes: views of their arrays, their labelled parts, quality and files.
-#include <algorithm>
-
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -9,6 +7,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/io/set_table.h"
 #include "hexwright/quality/hex_quality.h"
@@ -23,18 +22,13 @@ namespace hexwright::python {
 namespace {
 
 using namespace nb::literals;
-static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<VertId, 8>) == 32,
-              "views take them for rows of numbers");
 
 HexMesh make_mesh(const AnyArray& points, const AnyArray& hexes,
                   const std::optional<AnyArray>& regions) {
   HexMesh mesh;
   mesh.positions = IdVector<VertId, Vec3>(to_points(points, "points"));
-  const std::string of = "the " + std::to_string(mesh.num_verts()) + " points";
-  const auto flat =
-      to_indices(hexes, 8, {0, static_cast<std::int64_t>(mesh.num_verts()), of}, "hexes");
-  mesh.hexes.resize(flat.size() / 8);
-  for (std::size_t i = 0; i < flat.size(); ++i) mesh.hexes.raw()[i / 8][i % 8] = VertId(flat[i]);
+  mesh.hexes = IdVector<HexId, std::array<VertId, 8>>(
+      to_elements<8>(hexes, all_points(mesh.num_verts()), "hexes"));
   if (regions) {
     mesh.region = IdVector<HexId, std::int32_t>(
         to_indices(*regions, 0, {INT32_MIN, INT32_MAX, "the 32-bit tags"}, "regions"));
@@ -49,15 +43,9 @@ HexMesh make_mesh(const AnyArray& points, const AnyArray& hexes,
 
 const HexMesh& mesh_of(nb::handle self) { return nb::cast<const HexMesh&>(self); }
 
-nb::object points_of(nb::handle self) {
-  const auto& points = mesh_of(self).positions.raw();
-  return view_rows(reinterpret_cast<const double*>(points.data()), points.size(), 3, self);
-}
+nb::object points_of(nb::handle self) { return view_points(mesh_of(self).positions.raw(), self); }
 
-nb::object hexes_of(nb::handle self) {
-  const auto& hexes = mesh_of(self).hexes.raw();
-  return view_rows(reinterpret_cast<const std::int32_t*>(hexes.data()), hexes.size(), 8, self);
-}
+nb::object hexes_of(nb::handle self) { return view_elements(mesh_of(self).hexes.raw(), self); }
 
 /// A mesh without tags has the tag 0 everywhere: one number, seen as often as there are hexes.
 nb::object regions_of(nb::handle self) {
@@ -67,10 +55,7 @@ nb::object regions_of(nb::handle self) {
   return view_values(mesh.region.raw().data(), mesh.num_hexes(), self);
 }
 
-nb::object corners_of(nb::handle self) {
-  const auto& corners = mesh_of(self).labels.corners;
-  return view_values(reinterpret_cast<const std::int32_t*>(corners.data()), corners.size(), self);
-}
+nb::object corners_of(nb::handle self) { return view_ids(mesh_of(self).labels.corners, self); }
 
 std::vector<double> measure(const HexMesh& mesh, const std::string& name) {
   if (name == "scaled_jacobian") return compute_scaled_jacobians(mesh).raw();
@@ -117,23 +102,20 @@ std::vector<std::pair<std::string, std::string>> save(const HexMesh& mesh, const
   return changed;
 }
 
-/// The names that files have too: those of the mesh, or by number.
-template <class Names>
-std::vector<std::string> fill_names(const Names& names, SetKind kind, std::size_t count) {
-  std::vector<std::string> filled(count);
+std::vector<std::string> first_names(const HexMesh& mesh, SetKind kind, std::size_t count) {
+  std::vector<std::string> names(count);
   for (std::size_t k = 0; k < count; ++k)
-    filled[k] = k < names.size() && !names.raw()[k].empty()
-                    ? names.raw()[k]
-                    : default_set_name(kind, static_cast<std::int32_t>(k));
-  return filled;
+    names[k] = set_name(mesh, kind, static_cast<std::int32_t>(k));
+  return names;
 }
 
-std::string view_page(const HexMesh& mesh, const std::string& title, const TriMesh* surface) {
+void write_view(const std::string& path, const HexMesh& mesh, const std::string& title,
+                const TriMesh* surface) {
   ViewOptions options;
   options.title = title;
   std::optional<SurfaceTree> tree;
   if (surface) options.surface = &tree.emplace(*surface);
-  return make_view_page(mesh, options);
+  write_file_atomically(path, make_view_page(mesh, options));
 }
 
 nb::tuple facets_of(nb::handle self) {
@@ -143,24 +125,16 @@ nb::tuple facets_of(nb::handle self) {
     const nb::gil_scoped_release released;
     table = sort_facets(mesh);
   }
-  auto* held = new FacetTable(std::move(table));
-  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<FacetTable*>(p); });
-  return nb::make_tuple(
-      view_rows(reinterpret_cast<const std::int32_t*>(held->quads.data()), held->quads.size(), 4,
-                owner),
-      view_values(held->owner.data(), held->owner.size(), owner),
-      view_values(held->side.data(), held->side.size(), owner), held->start,
-      fill_names(mesh_of(self).labels.patch_names, SetKind::Patch, held->start.size() - 1));
+  const auto [held, owner] = keep(std::move(table));
+  return nb::make_tuple(view_elements(held->quads.verts, owner), view_ids(held->owner, owner),
+                        view_values(held->side.data(), held->side.size(), owner), held->quads.start,
+                        first_names(mesh_of(self), SetKind::Patch, held->quads.start.size() - 1));
 }
 
 nb::tuple curves_of(nb::handle self) {
-  auto* held = new CurveTable(sort_curves(mesh_of(self)));
-  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<CurveTable*>(p); });
-  return nb::make_tuple(
-      view_rows(reinterpret_cast<const std::int32_t*>(held->edges.data()), held->edges.size(), 2,
-                owner),
-      held->start,
-      fill_names(mesh_of(self).labels.curve_names, SetKind::Curve, held->start.size() - 1));
+  const auto [held, owner] = keep(sort_curves(mesh_of(self)));
+  return nb::make_tuple(view_elements(held->verts, owner), held->start,
+                        first_names(mesh_of(self), SetKind::Curve, held->start.size() - 1));
 }
 
 /// The same views as `hexwright picture`.
@@ -210,12 +184,16 @@ void bind_mesh(nb::module_& module) {
       "points"_a, "hexes"_a, "regions"_a.none() = nb::none());
   add_views(type);
   type.def_prop_ro("region_names", [](const HexMesh& mesh) { return mesh.region_names; });
+  type.def(
+      "region_name",
+      [](const HexMesh& mesh, std::int32_t tag) { return set_name(mesh, SetKind::Region, tag); },
+      "tag"_a);
   type.def("quality", &quality_of, "name"_a,
            nb::sig("def quality(self, name: str) -> numpy.typing.NDArray[numpy.float64]"))
       .def("save", &save, "path"_a, "fields"_a, "format"_a)
       .def("facets", &facets_of)
       .def("curves", &curves_of);
-  module.def("view_page", &view_page, "mesh"_a, "title"_a, "surface"_a.none(),
+  module.def("write_view", &write_view, "path"_a, "mesh"_a, "title"_a, "surface"_a.none(),
              nb::call_guard<nb::gil_scoped_release>());
   module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
              nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "

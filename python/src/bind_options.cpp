@@ -1,6 +1,10 @@
 // The tables of options, to list and to read Python's keywords with.
+#include <string_view>
+
+#include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include "hexwright/base/error.h"
@@ -44,20 +48,40 @@ nb::list describe_defaults(Options options = {}) {
   return describe(make_option_table(options));
 }
 
-nb::list option_table(const std::string& stage) {
-  if (stage == "mesh") return describe_defaults<MeshOptions>();
-  if (stage == "complete") return describe_defaults<CompleteOptions>();
-  if (stage == "dual") return describe_defaults<DualStageOptions>();
-  if (stage == "fit") return describe_defaults<FitStageOptions>();
-  if (stage == "improve") return describe_defaults<ImproveOptions>();
-  if (stage == "polycube") return describe_defaults<PolycubeOptions>();
-  if (stage == "check") return describe_defaults<FeatureOptions>();
-  if (stage == "evaluate") return describe_defaults(default_evaluate_options());
-  if (stage == "grid") {
-    MeshOptions options;
-    return describe(make_grid_option_table(options));
+nb::list describe_grid_defaults() {
+  MeshOptions options;
+  return describe(make_grid_option_table(options));
+}
+
+struct Stage {
+  std::string_view name;
+  nb::list (*options)();
+};
+constexpr Stage kStages[] = {
+    {"mesh", [] { return describe_defaults<MeshOptions>(); }},
+    {"grid", &describe_grid_defaults},
+    {"complete", [] { return describe_defaults<CompleteOptions>(); }},
+    {"dual", [] { return describe_defaults<DualStageOptions>(); }},
+    {"fit", [] { return describe_defaults<FitStageOptions>(); }},
+    {"improve", [] { return describe_defaults<ImproveOptions>(); }},
+    {"polycube", [] { return describe_defaults<PolycubeOptions>(); }},
+    {"check", [] { return describe_defaults<FeatureOptions>(); }},
+    {"evaluate", [] { return describe_defaults(default_evaluate_options()); }},
+};
+
+nb::list option_table(std::string_view name) {
+  std::string known;
+  for (const Stage& stage : kStages) {
+    if (stage.name == name) return stage.options();
+    known.append(known.empty() ? "" : ", ").append(stage.name);
   }
-  throw Error(ErrorCode::BadArgument, "no stage is called '" + stage + "'");
+  throw Error(ErrorCode::BadArgument, fmt::format("'{}' is none of {}", name, known), "stage");
+}
+
+std::vector<std::string_view> stage_names() {
+  std::vector<std::string_view> names;
+  for (const Stage& stage : kStages) names.push_back(stage.name);
+  return names;
 }
 
 }  // namespace
@@ -75,6 +99,9 @@ void apply_options(const OptionTable& table, const OptionDict& given) {
   }
 }
 
-void bind_options(nb::module_& module) { module.def("option_table", &option_table, "stage"_a); }
+void bind_options(nb::module_& module) {
+  module.def("stage_names", &stage_names);
+  module.def("option_table", &option_table, "stage"_a);
+}
 
 }  // namespace hexwright::python

@@ -1,10 +1,15 @@
 // The stages. Each takes its inputs, its options as text, and what to tell while it runs; each
 // gives the result's arrays and its report as JSON.
+#include <type_traits>
+#include <utility>
+#include <variant>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include "hexwright/base/error.h"
@@ -30,21 +35,33 @@ struct Call {
   RunSettings run;
 };
 
+template <class Options>
+Options read_options(const Call& call) {
+  Options options;
+  apply_options(make_option_table(options), call.options);
+  return options;
+}
+
+/// What `work` returns, and what was warned of meanwhile.
+template <class Work>
+auto run_for(const Call& call, Work&& work) {
+  std::pair<std::invoke_result_t<Work, const Context&>, Warnings> done;
+  done.second = run_stage(call.run, [&](const Context& context) { done.first = work(context); });
+  return done;
+}
+
 /// Pairs of vertices of the surface become segments, which stay right when it is cleaned.
 void add_features(const TriMesh& surface, const std::optional<AnyArray>& edges,
                   FeatureOptions& options) {
   if (!edges) return;
   const std::string of = "the surface's " + std::to_string(surface.num_verts()) + " vertices";
-  const auto verts =
-      to_indices(*edges, 2, {0, static_cast<std::int64_t>(surface.num_verts()), of}, "features");
-  for (std::size_t i = 0; i < verts.size(); i += 2)
-    options.extra_segments.push_back(
-        {surface.positions[VertId(verts[i])], surface.positions[VertId(verts[i + 1])]});
+  const IndexRange range{0, static_cast<std::int64_t>(surface.num_verts()), of};
+  for (const auto& [a, b] : to_elements<2>(*edges, range, "features"))
+    options.extra_segments.push_back({surface.positions[a], surface.positions[b]});
 }
 
 nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
-  MeshOptions options;
-  apply_options(make_option_table(options), call.options);
+  auto options = read_options<MeshOptions>(call);
   add_features(surface, features, options.target.features);
   MeshResult result;
   std::string report;
@@ -59,42 +76,34 @@ nb::tuple grid(const TriMesh& surface, const std::optional<AnyArray>& features, 
   MeshOptions options;
   apply_options(make_grid_option_table(options), call.options);
   add_features(surface, features, options.target.features);
-  SizingResult result;
-  Warnings warnings = run_stage(
-      call.run, [&](const Context& context) { result = size_surface(surface, options, context); });
-  const std::string report = sizing_to_json(result);
-  return nb::make_tuple(std::move(result.grid), report, warnings);
+  auto [sizing, warnings] = run_for(
+      call, [&](const Context& context) { return size_surface(surface, options, context); });
+  const std::string report = sizing_to_json(sizing);
+  return nb::make_tuple(std::move(sizing.grid), report, warnings);
 }
 
 nb::tuple complete_grid(const Grid& grid, const Call& call) {
-  CompleteOptions options;
-  apply_options(make_option_table(options), call.options);
-  CompleteResult result;
-  Warnings warnings = run_stage(
-      call.run, [&](const Context& context) { result = complete(grid, options, context); });
-  const std::string report = complete_to_json(result.report);
-  return nb::make_tuple(std::move(result.grid), report, warnings);
+  const auto options = read_options<CompleteOptions>(call);
+  auto [result, warnings] =
+      run_for(call, [&](const Context& context) { return complete(grid, options, context); });
+  return nb::make_tuple(std::move(result.grid), complete_to_json(result.report), warnings);
 }
 
 nb::tuple dual(const Grid& grid, const Call& call) {
-  DualStageOptions options;
-  apply_options(make_option_table(options), call.options);
-  DualResult result;
-  Warnings warnings = run_stage(
-      call.run, [&](const Context& context) { result = run_dual_stage(grid, options, context); });
-  const std::string report = dual_to_json(result.report);
-  return nb::make_tuple(std::move(result.mesh), report, warnings);
+  const auto options = read_options<DualStageOptions>(call);
+  auto [result, warnings] =
+      run_for(call, [&](const Context& context) { return run_dual_stage(grid, options, context); });
+  return nb::make_tuple(std::move(result.mesh), dual_to_json(result.report), warnings);
 }
 
 /// The result is judged as check() would judge it.
 nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
                    const std::optional<AnyArray>& features, const Call& call) {
-  FitStageOptions options;
-  apply_options(make_option_table(options), call.options);
+  auto options = read_options<FitStageOptions>(call);
   add_features(surface, features, options.target.features);
   FitResult result;
   Verdict verdict;
-  Warnings warnings = run_stage(call.run, [&](const Context& context) {
+  const Warnings warnings = run_stage(call.run, [&](const Context& context) {
     const Target target = make_target(surface, options.target, context);
     result = fit(to_unit(background, target.frame), target, options.fit, context);
     if (result.mesh.num_hexes() == 0)
@@ -116,20 +125,18 @@ nb::tuple check(const HexMesh& mesh, const TriMesh* surface,
   TargetOptions target;
   apply_options(make_option_table(target.features), call.options);
   if (surface) add_features(*surface, features, target.features);
-  Verdict verdict;
-  Warnings warnings = run_stage(call.run, [&](const Context& context) {
-    verdict = surface ? judge(mesh, *surface, target, {}, context) : judge(mesh, {}, context);
+  const auto [verdict, warnings] = run_for(call, [&](const Context& context) {
+    return surface ? judge(mesh, *surface, target, {}, context) : judge(mesh, {}, context);
   });
   return nb::make_tuple(verdict_to_json(verdict), verdict_to_text(verdict), warnings);
 }
 
 /// Leaves its input as it is.
 nb::tuple improve_mesh(const HexMesh& input, const TriMesh* surface, const Call& call) {
-  ImproveOptions options;
-  apply_options(make_option_table(options), call.options);
+  auto options = read_options<ImproveOptions>(call);
   HexMesh result;
   ImproveReport report;
-  Warnings warnings = run_stage(call.run, [&](const Context& context) {
+  const Warnings warnings = run_stage(call.run, [&](const Context& context) {
     if (const auto issue = input.find_problem())
       throw Error(ErrorCode::BadArgument, issue->message, "mesh");
     std::optional<SurfaceTree> tree;
@@ -147,37 +154,37 @@ nb::tuple improve_mesh(const HexMesh& input, const TriMesh* surface, const Call&
   return nb::make_tuple(std::move(result), figures, warnings);
 }
 
-using SizeField = std::function<double(double, double, double)>;
+/// One length, or a function of Python of the place.
+using SizeField = std::variant<double, std::function<double(double, double, double)>>;
 
-nb::tuple polycube(const TetMesh& object, const TetMesh& cube, const SizeField& max_edge,
-                   const Call& call) {
-  PolycubeOptions options;
-  apply_options(make_option_table(options), call.options);
-  if (max_edge)
-    options.max_edge = [&](const Vec3& p) {
-      const nb::gil_scoped_acquire held;
-      return max_edge(p.x, p.y, p.z);
-    };
-  PolycubeResult result;
-  Verdict verdict;
-  Warnings warnings = run_stage(call.run, [&](const Context& context) {
-    result = mesh_polycube(object, cube, options, context);
-    verdict = result.verdict;
-  });
-  for (const std::string& w : result.report.warnings) warnings.push_back(w);
-  const std::string report = polycube_to_json(result.report);
-  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report,
-                        verdict_to_json(verdict), warnings);
+std::function<double(const Vec3&)> to_max_edge(const SizeField& size) {
+  if (const double* length = std::get_if<double>(&size))
+    return [length = *length](const Vec3&) { return length; };
+  return [&size](const Vec3& p) {
+    const nb::gil_scoped_acquire held;
+    return std::get<1>(size)(p.x, p.y, p.z);
+  };
+}
+
+nb::tuple polycube(const TetMesh& object, const TetMesh& cube,
+                   const std::optional<SizeField>& max_edge, const Call& call) {
+  auto options = read_options<PolycubeOptions>(call);
+  if (max_edge) options.max_edge = to_max_edge(*max_edge);
+  auto [result, warnings] = run_for(
+      call, [&](const Context& context) { return mesh_polycube(object, cube, options, context); });
+  warnings.insert(warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+  return nb::make_tuple(std::move(result.mesh), std::move(result.grid),
+                        polycube_to_json(result.report), verdict_to_json(result.verdict), warnings);
 }
 
 std::string evaluate(const TriMesh& surface, const Call& call) {
   EvaluateOptions options = default_evaluate_options();
   apply_options(make_option_table(options), call.options);
-  std::string record;
-  run_stage(call.run, [&](const Context& context) {
-    record = record_to_json(evaluate_model(surface, options, context));
-  });
-  return record;
+  return run_for(call,
+                 [&](const Context& context) {
+                   return record_to_json(evaluate_model(surface, options, context));
+                 })
+      .first;
 }
 
 }  // namespace

@@ -17,16 +17,6 @@ namespace {
 
 using namespace nb::literals;
 
-template <std::size_t N>
-std::vector<std::array<VertId, N>> to_elements(const AnyArray& array, std::size_t num_points,
-                                               const std::string& name) {
-  const std::string of = "the " + std::to_string(num_points) + " points";
-  const auto flat = to_indices(array, N, {0, static_cast<std::int64_t>(num_points), of}, name);
-  std::vector<std::array<VertId, N>> elements(flat.size() / N);
-  for (std::size_t i = 0; i < flat.size(); ++i) elements[i / N][i % N] = VertId(flat[i]);
-  return elements;
-}
-
 /// The group of each face, and the groups' names.
 struct Groups {
   std::optional<AnyArray> group;
@@ -36,8 +26,8 @@ struct Groups {
 TriMesh make_surface(const AnyArray& points, const AnyArray& faces, const Groups& groups) {
   TriMesh surface;
   surface.positions = IdVector<VertId, Vec3>(to_points(points, "vertices"));
-  surface.tris =
-      IdVector<TriId, std::array<VertId, 3>>(to_elements<3>(faces, surface.num_verts(), "faces"));
+  surface.tris = IdVector<TriId, std::array<VertId, 3>>(
+      to_elements<3>(faces, all_points(surface.num_verts()), "faces"));
   if (groups.group) {
     const auto limit = static_cast<std::int64_t>(groups.names.size());
     surface.group = IdVector<TriId, std::int32_t>(
@@ -52,14 +42,9 @@ TriMesh make_surface(const AnyArray& points, const AnyArray& faces, const Groups
 TetMesh make_tets(const AnyArray& points, const AnyArray& tets) {
   TetMesh mesh;
   mesh.positions = IdVector<VertId, Vec3>(to_points(points, "points"));
-  mesh.tets =
-      IdVector<TetId, std::array<VertId, 4>>(to_elements<4>(tets, mesh.num_verts(), "tets"));
+  mesh.tets = IdVector<TetId, std::array<VertId, 4>>(
+      to_elements<4>(tets, all_points(mesh.num_verts()), "tets"));
   return mesh;
-}
-
-nb::object points_of(nb::handle self, const IdVector<VertId, Vec3>& positions) {
-  return view_rows(reinterpret_cast<const double*>(positions.raw().data()), positions.size(), 3,
-                   self);
 }
 
 /// The surface with names by rules, and how many triangles each named.
@@ -101,14 +86,14 @@ void bind_surface(nb::module_& module) {
           "vertices"_a, "faces"_a, "group"_a.none() = nb::none(), "group_names"_a = nb::list())
       .def_prop_ro(
           "vertices",
-          [](nb::handle self) { return points_of(self, nb::cast<const TriMesh&>(self).positions); },
+          [](nb::handle self) {
+            return view_points(nb::cast<const TriMesh&>(self).positions.raw(), self);
+          },
           nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"))
       .def_prop_ro(
           "faces",
           [](nb::handle self) {
-            const auto& tris = nb::cast<const TriMesh&>(self).tris.raw();
-            return view_rows(reinterpret_cast<const std::int32_t*>(tris.data()), tris.size(), 3,
-                             self);
+            return view_elements(nb::cast<const TriMesh&>(self).tris.raw(), self);
           },
           nb::sig("def faces(self) -> numpy.typing.NDArray[numpy.int32]"))
       .def_prop_ro(
@@ -128,7 +113,9 @@ void bind_surface(nb::module_& module) {
           "points"_a, "tets"_a)
       .def_prop_ro(
           "points",
-          [](nb::handle self) { return points_of(self, nb::cast<const TetMesh&>(self).positions); },
+          [](nb::handle self) {
+            return view_points(nb::cast<const TetMesh&>(self).positions.raw(), self);
+          },
           nb::sig("def points(self) -> numpy.typing.NDArray[numpy.float64]"));
   module.def("name_by_rules", &name_by_rules, "surface"_a, "rules"_a);
   module.def("read_surface", &read, "path"_a);

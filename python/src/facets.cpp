@@ -3,39 +3,26 @@
 
 #include <algorithm>
 
-#include "hexwright/mesh/hex_adjacency.h"
+#include "hexwright/io/set_table.h"
 
 namespace hexwright::python {
 namespace {
 
-/// Where each element goes, and where each label begins; elements without a label go last.
-struct Order {
-  std::vector<std::size_t> element_to_place;
-  std::vector<std::size_t> start;
-};
-
-template <class Elements, class Label>
-Order order_by_label(const Elements& elements, Label&& label) {
+template <std::size_t N, class Element, class Label>
+LabelTable<N> sort_by_label(const std::vector<Element>& elements, Label&& label) {
   std::size_t num_labels = 0;
-  for (const auto& e : elements)
+  for (const Element& e : elements)
     if (label(e).is_valid()) num_labels = std::max(num_labels, label(e).index() + 1);
-  const auto slot = [&](const auto& e) {
+  const auto slot = [&](const Element& e) {
     return label(e).is_valid() ? label(e).index() : num_labels;
   };
-  Order order;
-  std::vector<std::size_t> count(num_labels + 1, 0);
-  for (const auto& e : elements) ++count[slot(e)];
-  order.start.assign(num_labels + 1, 0);
-  for (std::size_t k = 0; k < num_labels; ++k) order.start[k + 1] = order.start[k] + count[k];
-  std::vector<std::size_t> next = order.start;
-  for (const auto& e : elements) order.element_to_place.push_back(next[slot(e)]++);
-  return order;
-}
-
-bool is_same_quad(std::array<VertId, 4> a, std::array<VertId, 4> b) {
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  return a == b;
+  std::vector<std::size_t> start(num_labels + 2, 0);
+  for (const Element& e : elements) ++start[slot(e) + 1];
+  for (std::size_t k = 0; k <= num_labels; ++k) start[k + 1] += start[k];
+  start.pop_back();
+  LabelTable<N> table{std::vector<std::array<VertId, N>>(elements.size()), start};
+  for (const Element& e : elements) table.verts[start[slot(e)]++] = e.verts;
+  return table;
 }
 
 bool runs_alike(const std::array<VertId, 4>& a, std::array<VertId, 4> b) {
@@ -46,48 +33,30 @@ bool runs_alike(const std::array<VertId, 4>& a, std::array<VertId, 4> b) {
 /// The face of a hex that is the quad; an invalid hex when there is none.
 HexFace find_owner(const HexMesh& mesh, const VertToHex& vert_to_hex,
                    const std::array<VertId, 4>& quad) {
-  HexFace owner;
-  for (const HexCorner& corner : vert_to_hex[quad[0]])
-    for (int lf = 0; lf < 6; ++lf) {
-      const HexFace face{corner.hex, lf};
-      const auto verts = face_verts(mesh, face);
-      if (!is_same_quad(verts, quad)) continue;
-      if (runs_alike(quad, verts)) return face;
-      owner = face;
-    }
-  return owner;
+  const auto faces = find_quad_faces(mesh, vert_to_hex, quad);
+  const auto alike = std::find_if(faces.begin(), faces.end(), [&](const HexFace& face) {
+    return runs_alike(quad, face_verts(mesh, face));
+  });
+  return alike != faces.end() ? *alike : faces.empty() ? HexFace{} : faces.front();
 }
 
 }  // namespace
 
 FacetTable sort_facets(const HexMesh& mesh) {
-  const auto& quads = mesh.labels.quads;
-  const Order order = order_by_label(quads, [](const LabeledQuad& q) { return q.patch; });
   FacetTable table;
-  table.start = order.start;
-  table.quads.resize(quads.size());
-  table.owner.resize(quads.size());
-  table.side.resize(quads.size());
+  table.quads =
+      sort_by_label<4>(mesh.labels.quads, [](const LabeledQuad& quad) { return quad.patch; });
   const VertToHex vert_to_hex(mesh);
-  for (std::size_t i = 0; i < quads.size(); ++i) {
-    const std::size_t place = order.element_to_place[i];
-    for (std::size_t k = 0; k < 4; ++k) table.quads[place][k] = quads[i].verts[k].value();
-    const HexFace face = find_owner(mesh, vert_to_hex, quads[i].verts);
-    table.owner[place] = face.hex.value();
-    table.side[place] = static_cast<std::int8_t>(face.lf);
+  for (const auto& quad : table.quads.verts) {
+    const HexFace face = find_owner(mesh, vert_to_hex, quad);
+    table.owner.push_back(face.hex);
+    table.side.push_back(static_cast<std::int8_t>(face.lf));
   }
   return table;
 }
 
-CurveTable sort_curves(const HexMesh& mesh) {
-  const auto& edges = mesh.labels.edges;
-  const Order order = order_by_label(edges, [](const LabeledEdge& e) { return e.curve; });
-  CurveTable table;
-  table.start = order.start;
-  table.edges.resize(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    table.edges[order.element_to_place[i]] = {edges[i].verts[0].value(), edges[i].verts[1].value()};
-  return table;
+LabelTable<2> sort_curves(const HexMesh& mesh) {
+  return sort_by_label<2>(mesh.labels.edges, [](const LabeledEdge& edge) { return edge.curve; });
 }
 
 }  // namespace hexwright::python

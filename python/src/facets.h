@@ -9,24 +9,25 @@
 
 namespace hexwright::python {
 
-/// Quads by patch: those of patch p are start[p] .. start[p + 1]. Quads without a patch come last,
-/// from start.back() on.
-struct FacetTable {
-  std::vector<std::array<std::int32_t, 4>> quads;  ///< as labelled
-  std::vector<std::int32_t> owner;                 ///< the hex that has the quad as a face
-  std::vector<std::int8_t> side;                   ///< which of its faces, as in hex_numbering.h
+/// Elements by label: those of label k are start[k] .. start[k + 1]. Elements without a label come
+/// last, from start.back() on.
+template <std::size_t N>
+struct LabelTable {
+  std::vector<std::array<VertId, N>> verts;  ///< as labelled
   std::vector<std::size_t> start;
+};
+
+struct FacetTable {
+  LabelTable<4> quads;            ///< by patch
+  std::vector<HexId> owner;       ///< the hex that has the quad as a face
+  std::vector<std::int8_t> side;  ///< which of its faces, as in hex_numbering.h
 };
 
 /// Of two hexes that share a quad, the owner is the one that sees it run as its own face does. -1
 /// where no hex has the quad. Linear.
 FacetTable sort_facets(const HexMesh& mesh);
 
-/// Edges by curve, likewise.
-struct CurveTable {
-  std::vector<std::array<std::int32_t, 2>> edges;
-  std::vector<std::size_t> start;
-};
-CurveTable sort_curves(const HexMesh& mesh);
+/// Edges by curve.
+LabelTable<2> sort_curves(const HexMesh& mesh);
 
 }  // namespace hexwright::python

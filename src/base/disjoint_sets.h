@@ -1,4 +1,4 @@
-// Disjoint sets over 0 .. size-1, by union with path halving: the only ones of the project.
+// Disjoint sets over 0 .. size-1, by union with path halving.
 //
 // Based on: Tarjan, van Leeuwen, "Worst-case analysis of set union algorithms", Journal of the ACM
 // 31(2), 1984. Differs: the least member represents its set instead of the root of the higher tree,

@@ -45,7 +45,7 @@ void parallel_chunks(std::size_t count, std::size_t grain,
     return;
   }
   // Workers round and treat denormals as the caller does. Without this a loop inherits whatever
-  // mode was set when the workers started, for example by a ray tracer that flushes denormals.
+  // mode was set when the workers started, for example by a library that flushes denormals.
   using TbbContext = tbb::task_group_context;
   TbbContext context(TbbContext::bound, TbbContext::default_traits | TbbContext::fp_settings);
   tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk, context);

@@ -160,8 +160,7 @@ class Fitter {
     Attempt result = fit_features(carved, scaffold.state);
     arrive(result);
     std::shared_ptr<FitMemory> memory;
-    if (is_lifting())
-      memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
+    if (is_lifting()) memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
     const bool is_poor = is_lifting() && least_quality(result) < options_.lift_goal;
     FitResult done = conclude(std::move(result));

@@ -47,4 +47,18 @@ double scaled_jacobian(const std::array<Vec3, 8>& p) {
   return std::max(least, -1.0);
 }
 
+double hex_volume(const std::array<Vec3, 8>& p) {
+  // A bilinear face halves the space between its two triangulations, so that its flux is their
+  // mean. Positions relative to a corner keep the digits of a hex far from the origin.
+  double sum = 0;
+  for (const auto& f : kHexFaces) {
+    const Vec3 a = p[f[0]] - p[0];
+    const Vec3 b = p[f[1]] - p[0];
+    const Vec3 c = p[f[2]] - p[0];
+    const Vec3 d = p[f[3]] - p[0];
+    sum += det(a, b, c) + det(a, c, d) + det(a, b, d) + det(b, c, d);
+  }
+  return sum / 12;
+}
+
 }  // namespace hexwright

@@ -10,8 +10,8 @@
 #include "hexwright/pipeline/plan.h"
 
 #include "geometry/prepare/closed_pieces.h"
-#include "geometry/prepare/surface_edges.h"
 #include "geometry/tree/triangle_contacts.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -35,17 +35,12 @@ void count_names(const TriMesh& surface, SurfaceInspection& result) {
     if (g >= 0) ++result.names[static_cast<std::size_t>(g)].num_tris;
 }
 
-/// Pieces and edges of the surface as it is, welded and oriented.
+/// Pieces of the surface as it is, welded and oriented.
 void count_pieces(const TriMesh& mesh, SurfaceInspection& result) {
   result.num_open_tris = mesh.num_tris();
   for (const ClosedPiece& piece : split_closed_pieces(mesh)) {
-    ++(piece.volume6 > 0 ? result.num_solids : result.num_cavities);
+    ++(piece.volume > 0 ? result.num_solids : result.num_cavities);
     result.num_open_tris -= piece.mesh.num_tris();
-  }
-  const SurfaceEdges edges = compute_surface_edges(mesh);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    result.num_open_edges += edges.sides_of(e).size() == 1;
-    result.num_nonmanifold_edges += edges.sides_of(e).size() > 2;
   }
 }
 
@@ -56,21 +51,24 @@ void find_crossings(const TriMesh& mesh, SurfaceInspection& result) {
     return find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth).has_value();
   });
   result.num_crossings = pairs.size();
-  const std::size_t step = std::max<std::size_t>(1, pairs.size() / result.kMaxPlaces);
-  for (std::size_t i = 0; i < pairs.size() && result.crossings.size() < result.kMaxPlaces;
-       i += step) {
-    const auto at =
-        find_crossing(unit.corners(pairs[i].a), unit.corners(pairs[i].b), kCrossingDepth);
+  const std::size_t num_shown = std::min(pairs.size(), result.kMaxPlaces);
+  for (std::size_t i = 0; i < num_shown; ++i) {
+    const auto& [a, b] = pairs[i * pairs.size() / num_shown];
+    const auto at = find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth);
     result.crossings.push_back({frame.to_world(*at)});
   }
 }
 
-void find_thin(const TriMesh& mesh, double limit, const Context& context,
+/// Walls thinner than a share of the diagonal.
+void find_thin(const Target& target, double share, const Context& context,
                SurfaceInspection& result) {
-  const double spacing = kWallSpacing * bounding_box(mesh).diagonal();
-  std::vector<WallSample> walls = sample_opposite_walls(mesh, spacing, context);
+  const double diagonal = target.frame.length_to_world(target.diagonal());
+  const double spacing = kWallSpacing * diagonal, limit = share * diagonal;
+  std::vector<WallSample> walls =
+      sample_opposite_walls(target.tree, kWallSpacing * target.diagonal(), context);
   std::erase_if(walls, [](const WallSample& w) { return !std::isfinite(w.inner); });
   std::ranges::stable_sort(walls, {}, &WallSample::inner);
+  for (WallSample& w : walls) w.to_world(target.frame);
   result.num_wall_samples = walls.size();
   if (!walls.empty()) result.least_thickness = walls.front().inner;
   for (const WallSample& w : walls) {
@@ -85,25 +83,13 @@ void find_thin(const TriMesh& mesh, double limit, const Context& context,
   }
 }
 
-double enclosed_volume(const TriMesh& mesh) {
-  const Vec3 near = bounding_box(mesh).center();
-  double sum = 0;
-  for (TriId t : mesh.tris.ids()) {
-    const auto c = mesh.corners(t);
-    sum += det(c[0] - near, c[1] - near, c[2] - near) / 6;
-  }
-  return sum;
-}
-
 void measure_object(const TriMesh& surface, const MeshOptions& options, const Context& context,
                     SurfaceInspection& result) {
   const Target target = make_target(surface, plan_target(options), context);
-  const TriMesh mesh = to_world(target.surface(), target.frame);
   result.notes = target.diagnosis.notes;
   result.warnings = target.diagnosis.warnings;
-  result.volume = enclosed_volume(mesh);
-  const double diagonal = target.frame.length_to_world(target.diagonal());
-  find_thin(mesh, options.sizing.tolerance * diagonal, context, result);
+  result.volume = target.frame.volume_to_world(enclosed_volume(target.surface()));
+  find_thin(target, options.sizing.tolerance, context, result);
   result.sharp_length = target.frame.length_to_world(target.features.total_length());
   result.num_sharp_curves = target.features.curves.size();
   result.num_corners = target.features.corners.size();
@@ -123,12 +109,10 @@ SurfaceInspection inspect_surface(const TriMesh& surface, const MeshOptions& opt
   quiet.on_warning = nullptr;
   try {
     const PreparedSurface as_is = prepare_surface(surface, {.parts = Parts::AsIs}, quiet);
-    for (TriId t : as_is.mesh.tris.ids()) {
-      const auto c = as_is.mesh.corners(t);
-      result.area += norm(cross(c[1] - c[0], c[2] - c[0])) / 2;
-    }
+    result.area = total_area(as_is.mesh);
     count_pieces(as_is.mesh, result);
     result.num_open_edges = as_is.diagnosis.num_boundary_edges;
+    result.num_nonmanifold_edges = as_is.diagnosis.num_nonmanifold_edges;
     find_crossings(as_is.mesh, result);
     measure_object(surface, options, quiet, result);
   } catch (const Error& e) {

@@ -238,7 +238,7 @@ void PolycubeReport::to_world(const Similarity& frame) {
 
 void PolycubeResult::to_world(const Similarity& frame) {
   mesh = hexwright::to_world(std::move(mesh), frame);
-  for (Vec3& p : surface.positions) p = frame.to_world(p);
+  surface = hexwright::to_world(std::move(surface), frame);
   report.to_world(frame);
   verdict.to_world(frame);
 }

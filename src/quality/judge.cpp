@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "hexwright/base/parallel.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -57,11 +57,14 @@ void compare_topology(Verdict& verdict, const JudgeOptions& options) {
     return;
   }
   const std::size_t components = verdict.topology.num_boundary_components;
-  if (components != verdict.surface->num_components)
+  const bool is_same_count = components == verdict.surface->num_components;
+  const bool is_same_genus = verdict.topology.genus() == verdict.surface->genus();
+  verdict.has_other_topology = !is_same_count || !is_same_genus;
+  if (!is_same_count)
     verdict.warnings.push_back(
         fmt::format("the mesh's boundary has {} component(s), the surface {}", components,
                     verdict.surface->num_components));
-  if (verdict.topology.genus() != verdict.surface->genus())
+  if (!is_same_genus)
     verdict.warnings.push_back(fmt::format("the mesh's boundary has genus {}, the surface {}",
                                            verdict.topology.genus(), verdict.surface->genus()));
 }
@@ -74,27 +77,12 @@ DistanceOptions distance_options(const Target& target, const JudgeOptions& optio
           .solid_only = !target.expected.is_known};
 }
 
-/// The volume within a closed surface, by the tetrahedra from a point near it to its triangles.
-double enclosed_volume(const TriMesh& surface, const Vec3& near) {
-  return parallel_reduce(
-      surface.num_tris(), 0.0,
-      [&](std::size_t begin, std::size_t end) {
-        double sum = 0;
-        for (std::size_t t = begin; t < end; ++t) {
-          const auto c = surface.corners(TriId(t));
-          sum += det(c[0] - near, c[1] - near, c[2] - near) / 6;
-        }
-        return sum;
-      },
-      [](double a, double b) { return a + b; });
-}
-
 void compare_volume(Verdict& verdict, const Target& target, const JudgeOptions& options) {
   const TriMesh& surface = target.surface();
   if (options.quads != JudgedQuads::Boundary || !verdict.surface->is_closed_manifold() ||
       !is_oriented_cycle(surface))
     return;
-  const double volume = enclosed_volume(surface, target.tree.box().center());
+  const double volume = enclosed_volume(surface);
   if (volume > 0) verdict.volume_error = verdict.quality.total_volume / volume - 1;
 }
 

@@ -40,10 +40,11 @@ constexpr double kSameRadius = 0.004;
 /// A boundary this many times as large as the surface is sampled relative to its own size.
 constexpr double kFarLarger = 3;
 
-struct Target {
+/// What samples are measured to.
+struct Reference {
   const SurfaceTree& tree;
   double hot_distance = 0;  // infinity when hot samples are not wanted
-  // Says that a sample far from the target is right to be there.
+  // Says that a sample far from it is right to be there.
   FunctionRef<bool(const Vec3& p, double distance)> is_excused;
   bool has_excuses = false;     // whether to ask
   double trusted_distance = 0;  // up to here samples count in the means unasked,
@@ -84,10 +85,10 @@ Partial combine(Partial a, const Partial& b) {
 // Measures samples that come in an order where neighbours are near, which bounds each search.
 class SampleMeter {
  public:
-  explicit SampleMeter(const Target& target) : target_(target) {}
+  explicit SampleMeter(const Reference& reference) : reference_(reference) {}
 
   void add(const Vec3& p, double weight) {
-    const double d = distance_to_target(p);
+    const double d = distance_to_reference(p);
     if (!counts(p, d)) {
       partial_.excused_weight += weight;
       return;
@@ -98,7 +99,7 @@ class SampleMeter {
     }
     partial_.weighted_sum += weight * d;
     partial_.weight += weight;
-    if (d > target_.hot_distance) partial_.hot.push_back(p);
+    if (d > reference_.hot_distance) partial_.hot.push_back(p);
   }
   const Partial& partial() const { return partial_; }
 
@@ -106,27 +107,28 @@ class SampleMeter {
   /// Whether a sample counts. What would be the largest so far, or a place to refine, is tested
   /// itself.
   bool counts(const Vec3& p, double d) {
-    if (!target_.has_excuses) return true;
-    const bool matters = d > std::max(partial_.max, target_.rounding) || d > target_.hot_distance;
-    if (!matters && d <= target_.trusted_distance) return true;
-    const bool is_near = last_tested_ && distance(p, *last_tested_) < target_.same_radius;
+    if (!reference_.has_excuses) return true;
+    const bool matters =
+        d > std::max(partial_.max, reference_.rounding) || d > reference_.hot_distance;
+    if (!matters && d <= reference_.trusted_distance) return true;
+    const bool is_near = last_tested_ && distance(p, *last_tested_) < reference_.same_radius;
     if (is_near && !matters) return last_counts_;
     last_tested_ = p;
-    return last_counts_ = !target_.is_excused(p, d);
+    return last_counts_ = !reference_.is_excused(p, d);
   }
 
-  double distance_to_target(const Vec3& p) {
+  double distance_to_reference(const Vec3& p) {
     ClosestFilter filter;
     if (has_previous_) filter.max_distance = (previous_distance_ + distance(p, previous_)) * kSlack;
-    auto hit = target_.tree.closest(p, filter);
-    if (!hit && has_previous_) hit = target_.tree.closest(p);
+    auto hit = reference_.tree.closest(p, filter);
+    if (!hit && has_previous_) hit = reference_.tree.closest(p);
     if (!hit) return std::numeric_limits<double>::infinity();
     has_previous_ = true;
     previous_ = p;
     return previous_distance_ = std::sqrt(hit->distance_sq);
   }
 
-  const Target& target_;
+  const Reference& reference_;
   Partial partial_;
   bool has_previous_ = false;
   Vec3 previous_;
@@ -135,12 +137,12 @@ class SampleMeter {
   bool last_counts_ = true;
 };
 
-Partial measure(const TriMesh& sampled, const Target& target, double spacing) {
+Partial measure(const TriMesh& sampled, const Reference& reference, double spacing) {
   const TriangleSamples samples(sampled, spacing);
   Partial total = parallel_reduce(
       samples.size(), Partial{},
       [&](std::size_t begin, std::size_t end) {
-        SampleMeter meter(target);
+        SampleMeter meter(reference);
         samples.visit(begin, end, [&](const Vec3& p, double weight) { meter.add(p, weight); });
         return meter.partial();
       },

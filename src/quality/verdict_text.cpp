@@ -6,25 +6,12 @@
 
 #include "hexwright/quality/verdict_json.h"
 
+#include "base/words.h"
+
 namespace hexwright {
 namespace {
 
 constexpr std::size_t kBarWidth = 40;
-
-// 1234567 as "1,234,567", in any locale.
-std::string grouped(std::size_t value) {
-  const std::string digits = std::to_string(value);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return grouped(count) + " " + (count == 1 ? one : many);
-}
 
 std::string line(const char* label, const std::string& text) {
   return fmt::format("  {:<10} {}\n", label, text);
@@ -42,14 +29,11 @@ std::string topology_lines(const Verdict& verdict) {
                   counted(t.num_boundary_components, "boundary surface", "boundary surfaces"));
   if (t.is_valid()) shape += fmt::format(", genus {}; conforming and manifold", t.genus());
   text += line("topology", shape);
-  const auto& surface = verdict.surface;
-  const bool is_other =
-      surface && surface->is_closed_manifold() && t.is_valid() &&
-      (surface->num_components != t.num_boundary_components || surface->genus() != t.genus());
-  if (is_other)
-    text += line("", fmt::format("NOT the surface's: it has {} and genus {}",
-                                 counted(surface->num_components, "component", "components"),
-                                 surface->genus()));
+  if (verdict.has_other_topology && t.is_valid())
+    text +=
+        line("", fmt::format("NOT the surface's: it has {} and genus {}",
+                             counted(verdict.surface->num_components, "component", "components"),
+                             verdict.surface->genus()));
   return text;
 }
 

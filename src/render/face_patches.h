@@ -1,7 +1,6 @@
 // Which patch each face of a hex lies on.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "hexwright/mesh/hex_adjacency.h"
@@ -16,8 +15,5 @@ inline std::size_t face_slot(const HexFace& face) {
 /// By face_slot; invalid without a label. A labelled quad inside the mesh gives both its faces its
 /// patch. Empty when no quad has a patch.
 std::vector<PatchId> find_face_patches(const HexMesh& mesh);
-
-/// The name of a patch, its own or by its number.
-std::string patch_name(const HexMesh& mesh, PatchId patch);
 
 }  // namespace hexwright

@@ -27,16 +27,31 @@ const Glyph* find_glyph(std::uint32_t code) {
   return found != std::end(kGlyphs) && found->code == code ? found : nullptr;
 }
 
+// Takes the first character off a UTF-8 text; 0xfffd for a byte that begins none.
+std::uint32_t take_character(std::string_view& text) {
+  constexpr std::uint32_t kNone = 0xfffd;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  const std::size_t length = lead < 0x80       ? 1
+                             : lead >> 5 == 6  ? 2
+                             : lead >> 4 == 14 ? 3
+                             : lead >> 3 == 30 ? 4
+                                               : 0;
+  std::uint32_t code = length == 1 ? lead : lead & (0xffU >> (length + 1));
+  bool is_whole = length > 0 && length <= text.size();
+  for (std::size_t k = 1; is_whole && k < length; ++k) {
+    is_whole = (byte(k) & 0xc0U) == 0x80U;
+    code = code << 6 | (byte(k) & 0x3fU);
+  }
+  text.remove_prefix(is_whole ? length : 1);
+  return is_whole ? code : kNone;
+}
+
 // The glyphs of a text. Bytes that are no UTF-8 and characters without a glyph become '?'.
 std::vector<const Glyph*> find_glyphs(std::string_view text) {
   std::vector<const Glyph*> glyphs;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : 4;
-    std::uint32_t code = length == 1 ? lead : lead & (0xffU >> (length + 1));
-    for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
-      code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3fU);
-    i += length;
+  while (!text.empty()) {
+    const std::uint32_t code = take_character(text);
     if (code < 0x20) continue;
     const Glyph* glyph = find_glyph(code);
     glyphs.push_back(glyph ? glyph : find_glyph('?'));

@@ -6,6 +6,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/io/set_table.h"
 #include "hexwright/quality/hex_quality.h"
 
 #include "render/ambient_occlusion.h"
@@ -63,8 +64,8 @@ Viewport place_viewport(const Image& image, int legend) {
 }
 
 // Light for a surface with this normal in the camera's frame: a key light from the upper left, a
-// weaker one from the right.
-// Light is fixed to the eye and not to the scene, so that no view of a mesh is dark.
+// weaker one from the right. It is fixed to the eye and not to the scene, so that no view of a mesh
+// is dark.
 float light(const Vec3& normal) {
   const double key = std::max(0.0, dot(normal, normalized(Vec3{-0.45, 0.65, 0.65})));
   const double fill = std::max(0.0, dot(normal, normalized(Vec3{0.7, 0.1, 0.7})));
@@ -160,7 +161,9 @@ std::vector<NamedColor> list_patches(const HexMesh& mesh) {
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<NamedColor> names;
   for (const auto& [num_quads, patch] : patches)
-    if (num_quads > 0) names.push_back({patch_name(mesh, PatchId(patch)), category_color(patch)});
+    if (num_quads > 0)
+      names.push_back(
+          {set_name(mesh, SetKind::Patch, PatchId(patch).value()), category_color(patch)});
   return names;
 }
 

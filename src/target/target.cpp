@@ -26,10 +26,10 @@ struct Placed {
   double diagonal = 0;  ///< before it is turned: tolerances stay shares of the box that was given
 };
 
-Placed place(const TriMesh& surface, Placement placement) {
+Placed place(TriMesh surface, Placement placement) {
   Placed placed;
   placed.frame = compute_unit_frame(surface);
-  placed.mesh = to_unit(surface, placed.frame);
+  placed.mesh = to_unit(std::move(surface), placed.frame);
   placed.diagonal = bounding_box(placed.mesh).diagonal();
   if (placement == Placement::AsGiven) return placed;
   placed.frame.pose = find_pose(placed.mesh);
@@ -72,7 +72,7 @@ Target make_target(const TriMesh& surface, const TargetOptions& options, const C
   });
   stages.back().counts["triangles"] = static_cast<double>(prepared.mesh.num_tris());
 
-  Placed placed = place(prepared.mesh, options.placement);
+  Placed placed = place(std::move(prepared.mesh), options.placement);
   Target target = {.frame = placed.frame, .tree = run_stage(stages, "surface tree", context, [&] {
                                             return SurfaceTree(std::move(placed.mesh),
                                                                placed.diagonal);

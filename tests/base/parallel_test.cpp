@@ -1,7 +1,10 @@
 #include "hexwright/base/parallel.h"
 
+#include <cfenv>
+#include <chrono>
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +36,24 @@ TEST(Parallel, SumOfDoublesIsTheSameForAnyThreadCount) {
         [](double a, double b) { return a + b; }, 100);
   };
   EXPECT_EQ(sum(1), sum(2));
+}
+
+// Also after the workers have started in another mode: theirs must not stay.
+TEST(Parallel, WorkersRoundAsTheCallerDoes) {
+  const ThreadLimit limit(4);
+  for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_TONEAREST}) {
+    std::fesetround(mode);
+    std::vector<int> modes(2000, -1);
+    parallel_for(
+        modes.size(),
+        [&](std::size_t i) {
+          modes[i] = std::fegetround();
+          std::this_thread::sleep_for(std::chrono::microseconds(5));  // or one thread takes all
+        },
+        1);
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(modes, std::vector<int>(modes.size(), mode));
+  }
 }
 
 TEST(Parallel, StableSortKeepsTheOrderOfEqualKeys) {

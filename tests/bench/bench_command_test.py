@@ -89,6 +89,17 @@ class Runs(BenchTest):
         for name, record in records.items():
             self.assertEqual(record["status"], "failed" if name in odd else "done", record)
 
+    def test_names_at_the_limit_have_pictures_and_pages(self):
+        for cube in (self.models / "cube.obj", self.models / "deeper" / "cube.obj"):
+            cube.unlink()
+        long_name = "x" * 250 + ".obj"
+        (self.models / long_name).write_text(CUBE)
+        self.run_bench(self.models, "-o", self.out, *QUICK)
+        record = load(self.out)[long_name]
+        self.assertEqual(record["status"], "done", record)
+        for file in (*record["pictures"].values(), record["page"]):
+            self.assertTrue((self.out / file).exists(), file)
+
     def test_finished_models_are_kept_until_options_or_files_change(self):
         self.run_bench(self.models, "-o", self.out, *QUICK, "--no-mesh")
         files = [self.out / "records" / n for n in ("cube.obj.json", "deeper/cube.obj.json")]

@@ -6,20 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_soup.h"
-#include "helpers.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
 
 void append_cube(TriMesh& to, double size, const Vec3& low, bool reversed) {
-  const TriMesh cube = test::unit_cube_surface();
-  const auto base = static_cast<int>(to.num_verts());
-  for (const Vec3& p : cube.positions) to.positions.push_back(p * size + low);
-  for (auto t : cube.tris) {
-    if (reversed) std::swap(t[1], t[2]);
-    to.tris.push_back(
-        {VertId(base + t[0].value()), VertId(base + t[1].value()), VertId(base + t[2].value())});
-  }
+  const TriMesh cube = test::box_surface(low, low + Vec3{size, size, size});
+  append(to, reversed ? test::reversed(cube) : cube);
 }
 
 Vec3 random_in_triangle(std::mt19937_64& random, const std::array<Vec3, 3>& c) {

@@ -11,9 +11,9 @@
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/geometry/surface_topology.h"
 
-#include "geometry/prepare/surface_orient.h"
 #include "geometry/random_soup.h"
 #include "helpers.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -208,19 +208,19 @@ TEST(PrepareSurface, FindsTheSameSolidInAnyOrderAndPlace) {
     const TriMesh input = damaged(heap, random);
     const PreparedSurface reference = prepare_surface(input, {});
     EXPECT_TRUE(reference.diagnosis.is_closed) << seed;
-    EXPECT_NEAR(signed_volume6(reference.mesh), signed_volume6(heap), 1e-9) << seed;
+    EXPECT_NEAR(enclosed_volume(reference.mesh), enclosed_volume(heap), 1e-9) << seed;
 
     const PreparedSurface again = prepare_surface(renumbered(input, random), {});
     EXPECT_EQ(again.diagnosis.num_duplicate_tris, reference.diagnosis.num_duplicate_tris);
     EXPECT_EQ(again.diagnosis.num_filled_holes, reference.diagnosis.num_filled_holes);
     EXPECT_EQ(again.mesh.num_tris(), reference.mesh.num_tris());
-    EXPECT_NEAR(signed_volume6(again.mesh), signed_volume6(heap), 1e-9) << seed;
+    EXPECT_NEAR(enclosed_volume(again.mesh), enclosed_volume(heap), 1e-9) << seed;
 
     TriMesh mirrored = input;  // inside out, then turned back by the preparation
     for (Vec3& p : mirrored.positions) p = Vec3{-p.x, p.y, p.z} * 1e6 + Vec3{1e7, 0, 0};
     const PreparedSurface turned = prepare_surface(mirrored, {});
     EXPECT_TRUE(turned.diagnosis.is_closed) << seed;
-    EXPECT_NEAR(signed_volume6(turned.mesh) / 1e18, signed_volume6(heap), 1e-6) << seed;
+    EXPECT_NEAR(enclosed_volume(turned.mesh) / 1e18, enclosed_volume(heap), 1e-6) << seed;
   }
 }
 

@@ -11,22 +11,16 @@
 #include "hexwright/io/surface_io.h"
 
 #include "geometry/random_soup.h"
-#include "helpers.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
 
-void append(TriMesh& to, const TriMesh& from, double scale, const Vec3& shift) {
-  const auto base = to.num_verts();
-  for (const Vec3& p : from.positions) to.positions.push_back(p * scale + shift);
-  for (const auto& t : from.tris)
-    to.tris.push_back(
-        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
-}
+using test::reversed;
 
-TriMesh reversed(TriMesh mesh) {
-  for (auto& t : mesh.tris) std::swap(t[1], t[2]);
-  return mesh;
+void append(TriMesh& to, TriMesh from, double scale, const Vec3& shift) {
+  for (Vec3& p : from.positions) p = p * scale + shift;
+  append(to, from);
 }
 
 /// Every triangle with its own three vertices, moved by up to `noise`.
@@ -40,15 +34,6 @@ TriMesh soup_of(const TriMesh& mesh, double noise) {
     soup.tris.push_back(tri);
   }
   return soup;
-}
-
-double volume(const TriMesh& mesh) {
-  double sum = 0;
-  for (TriId t : mesh.tris.ids()) {
-    const auto c = mesh.corners(t);
-    sum += det(c[0], c[1], c[2]) / 6;
-  }
-  return sum;
 }
 
 TriMesh cube_in_cube(bool is_inner_reversed) {
@@ -97,7 +82,7 @@ TEST(PrepareSurface, LeavesAGoodSurfaceAlone) {
   ASSERT_EQ(p.mesh.num_tris(), cube.num_tris());
   for (TriId t : p.mesh.tris.ids())  // the same triangles with the same sides, in another order
     EXPECT_EQ(normal_of(p.mesh, t), normal_of(cube, p.source_tri[t]));
-  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-12);
   EXPECT_TRUE(p.diagnosis.is_closed);
   EXPECT_TRUE(p.diagnosis.warnings.empty());
 }
@@ -123,7 +108,7 @@ TEST(PrepareSurface, WeldsSoupsEvenWhenInexact) {
     EXPECT_TRUE(p.diagnosis.is_closed) << noise;
     EXPECT_EQ(p.mesh.num_verts(), 8u);
     EXPECT_EQ(p.diagnosis.num_welded_verts, 28u);
-    EXPECT_NEAR(volume(p.mesh), 1, 1e-6);
+    EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-6);
   }
 }
 
@@ -148,7 +133,7 @@ TEST(PrepareSurface, TouchingSolidsAsTheyAreStayApartUnlessTheyComeAsASoup) {
   EXPECT_EQ(compute_topology(prepare_surface(touching, as_is, {}).mesh).num_components, 2u);
   const auto merged = prepare_surface(soup_of(touching, 0), as_is, {});
   EXPECT_TRUE(merged.diagnosis.is_closed);
-  EXPECT_NEAR(volume(merged.mesh), 2, 1e-12);
+  EXPECT_NEAR(enclosed_volume(merged.mesh), 2, 1e-12);
 }
 
 TEST(PrepareSurface, DropsRepeatedAndDuplicateTriangles) {
@@ -178,13 +163,13 @@ TEST(PrepareSurface, FlipsCapsIntoTheirNeighbour) {
     const auto x = p.mesh.corners(t);
     EXPECT_GT(norm(cross(x[1] - x[0], x[2] - x[0])), 0.1);
   }
-  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-12);
 }
 
 TEST(PrepareSurface, TurnsAnInsideOutSurface) {
   const auto p = prepare_surface(reversed(test::unit_cube_surface()), {});
   EXPECT_TRUE(p.diagnosis.is_flipped_whole);
-  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-12);
 }
 
 TEST(PrepareSurface, RepairsRandomOrientations) {
@@ -200,20 +185,21 @@ TEST(PrepareSurface, RepairsRandomOrientations) {
       }
     const auto p = prepare_surface(bad, {});
     EXPECT_TRUE(p.diagnosis.is_closed);
-    EXPECT_NEAR(volume(p.mesh), volume(good), 1e-9);
+    EXPECT_NEAR(enclosed_volume(p.mesh), enclosed_volume(good), 1e-9);
     EXPECT_EQ(p.diagnosis.num_flipped_tris, num_bad);
   }
 }
 
 TEST(PrepareSurface, CavitiesStayCavitiesWhateverTheWholeOrientation) {
   const double expected = 1 - 0.125;
-  EXPECT_NEAR(volume(prepare_surface(cube_in_cube(true), {}).mesh), expected, 1e-12);
-  EXPECT_NEAR(volume(prepare_surface(reversed(cube_in_cube(true)), {}).mesh), expected, 1e-12);
+  EXPECT_NEAR(enclosed_volume(prepare_surface(cube_in_cube(true), {}).mesh), expected, 1e-12);
+  EXPECT_NEAR(enclosed_volume(prepare_surface(reversed(cube_in_cube(true)), {}).mesh), expected,
+              1e-12);
 }
 
 TEST(PrepareSurface, ShellsInsideASolidAreIgnoredWithAWarning) {
   const auto p = prepare_surface(cube_in_cube(false), {});
-  EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-12);
   EXPECT_EQ(p.diagnosis.num_hidden_parts, 1u);
   ASSERT_EQ(p.diagnosis.warnings.size(), 1u);
   EXPECT_NE(p.diagnosis.warnings[0].find("cavity"), std::string::npos);
@@ -223,7 +209,7 @@ TEST(PrepareSurface, SolidInsideACavityIsKept) {
   TriMesh three = cube_in_cube(true);
   append(three, test::unit_cube_surface(), 0.25, {0.375, 0.375, 0.375});
   const auto p = prepare_surface(three, {});
-  EXPECT_NEAR(volume(p.mesh), 1 - 0.125 + 0.015625, 1e-12);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1 - 0.125 + 0.015625, 1e-12);
   EXPECT_TRUE(p.diagnosis.warnings.empty());
 }
 
@@ -269,7 +255,7 @@ TEST(PrepareSurface, OverlappingSolidsAsTheyAreAreKeptWhole) {
 TEST(PrepareSurface, OnePieceInsideOutAmongSeveralIsTurned) {
   TriMesh pieces = test::unit_cube_surface();
   append(pieces, reversed(test::unit_cube_surface()), 0.5, {3, 0, 0});
-  EXPECT_NEAR(volume(prepare_surface(pieces, {}).mesh), 1.125, 1e-12);
+  EXPECT_NEAR(enclosed_volume(prepare_surface(pieces, {}).mesh), 1.125, 1e-12);
 }
 
 TEST(PrepareSurface, OpenSurfacesWithAnInsideAreAcceptedAndTurnedOutwards) {
@@ -281,7 +267,7 @@ TEST(PrepareSurface, OpenSurfacesWithAnInsideAreAcceptedAndTurnedOutwards) {
     EXPECT_EQ(p.diagnosis.num_filled_holes, 1u);
     EXPECT_FALSE(p.diagnosis.warnings.empty());
     EXPECT_TRUE(p.diagnosis.is_closed);
-    EXPECT_NEAR(volume(p.mesh), 1, 1e-12);
+    EXPECT_NEAR(enclosed_volume(p.mesh), 1, 1e-12);
     EXPECT_EQ(std::count(p.source_tri.begin(), p.source_tri.end(), TriId()), 2);
   }
 }
@@ -310,7 +296,7 @@ TEST(PrepareSurface, HolesOfAnyLengthAreClosedFlat) {
     EXPECT_EQ(p.diagnosis.num_filled_holes, 2u);
     EXPECT_EQ(p.mesh.num_tris(), std::size_t(2 * n + 2 * (n - 2)));
     const double area = 0.5 * n * std::sin(2 * std::numbers::pi / n);
-    EXPECT_NEAR(volume(p.mesh), 3 * area, 1e-9) << n;
+    EXPECT_NEAR(enclosed_volume(p.mesh), 3 * area, 1e-9) << n;
     EXPECT_EQ(compute_topology(p.mesh).euler_characteristic, 2);
   }
 }
@@ -329,7 +315,7 @@ TEST(PrepareSurface, RandomHolesAreClosedAgain) {
     EXPECT_TRUE(p.diagnosis.is_closed) << "seed " << seed;
     EXPECT_EQ(p.mesh.num_tris() + p.diagnosis.num_duplicate_tris,
               open.num_tris() + p.diagnosis.num_boundary_edges - 2 * p.diagnosis.num_filled_holes);
-    EXPECT_NEAR(volume(p.mesh), volume(sphere), 0.02) << "seed " << seed;
+    EXPECT_NEAR(enclosed_volume(p.mesh), enclosed_volume(sphere), 0.02) << "seed " << seed;
   }
 }
 
@@ -340,7 +326,7 @@ TEST(PrepareSurface, AFinThatHangsOnTheSurfaceIsNoHole) {
   const auto p = prepare_surface(cube, {});
   EXPECT_EQ(p.diagnosis.num_boundary_edges, 2u);
   EXPECT_EQ(p.diagnosis.num_filled_holes, 0u);
-  EXPECT_NEAR(volume(p.mesh), 1, 0.5);
+  EXPECT_NEAR(enclosed_volume(p.mesh), 1, 0.5);
 }
 
 TEST(PrepareSurface, WorksAtAnyScaleAndPosition) {

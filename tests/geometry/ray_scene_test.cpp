@@ -10,7 +10,7 @@
 #include "hexwright/geometry/shape_diameter.h"
 
 #include "geometry/random_soup.h"
-#include "helpers.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
@@ -207,11 +207,8 @@ TEST(ShapeDiameter, DoesNotDependOnThreads) {
 TEST(OppositeWalls, AShellMeasuresItsThicknessAndItsHollow) {
   TriMesh shell = round_sphere(20, 1, {});
   const TriMesh hollow = round_sphere(20, 0.6, {});
-  const std::size_t num_outer = shell.num_tris(), base = shell.num_verts();
-  for (const Vec3& p : hollow.positions) shell.positions.push_back(p);
-  for (const auto& t : hollow.tris)  // turned: the solid lies outside of the hollow
-    shell.tris.push_back(
-        {VertId(base + t[0].index()), VertId(base + t[2].index()), VertId(base + t[1].index())});
+  const std::size_t num_outer = shell.num_tris();
+  append(shell, test::reversed(hollow));  // the solid lies outside of the hollow
   // From the outer wall the straight ray is the shortest. From the hollow, rays at 36 degrees reach
   // the outer wall after sqrt(1 - (0.6 sin 36)^2) - 0.6 cos 36, times their cosine: 0.364.
   // Across the hollow, chords at angle a measure 1.2 cos^2 a, and their ends face while cos 2a is

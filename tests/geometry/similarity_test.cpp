@@ -39,7 +39,7 @@ TEST(Similarity, ScalingIsExactAndTheShiftRoundsOnce) {
       const Vec3 u = test::random_point(random, 2);
       EXPECT_EQ(centered.to_unit(centered.to_world(u)), u);
       const Vec3 there_and_back = moved.to_unit(moved.to_world(u));
-      EXPECT_LE(distance(there_and_back, u), 1e-14 / moved.scale() + 1e-14);
+      EXPECT_LE(distance(there_and_back, u), 1e-14 / moved.length_to_world(1) + 1e-14);
       EXPECT_EQ(centered.length_to_unit(centered.length_to_world(u.x)), u.x);
     }
   }

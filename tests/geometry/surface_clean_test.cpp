@@ -9,9 +9,9 @@
 #include "hexwright/geometry/surface_topology.h"
 
 #include "geometry/features/edges_along.h"
-#include "geometry/prepare/surface_orient.h"
 #include "geometry/random_soup.h"
 #include "helpers.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -262,14 +262,15 @@ TEST(FillHoles, HolesThatMeetInAVertexComeApart) {
 
 // The volume of any closed surface is the same about every origin, negates when turned, and scales
 // by the cube.
-TEST(SignedVolume, IsThatOfTheSolid) {
+TEST(EnclosedVolume, IsThatOfTheSolid) {
   TriMesh cube = test::unit_cube_surface();
-  EXPECT_NEAR(signed_volume6(cube), 6, 1e-12);
+  EXPECT_NEAR(enclosed_volume(cube), 1, 1e-12);
   for (Vec3& p : cube.positions) p = p * 3.0 + Vec3{1000, -2000, 500};
-  EXPECT_NEAR(signed_volume6(cube), 6 * 27, 1e-9);
+  EXPECT_NEAR(enclosed_volume(cube), 27, 1e-9);
+  EXPECT_NEAR(total_area(cube), 6 * 9, 1e-9);
   for (auto& t : cube.tris) std::swap(t[0], t[1]);
-  EXPECT_NEAR(signed_volume6(cube), -6 * 27, 1e-9);
-  EXPECT_EQ(signed_volume6({}), 0);
+  EXPECT_NEAR(enclosed_volume(cube), -27, 1e-9);
+  EXPECT_EQ(enclosed_volume({}), 0);
 }
 
 /// A flat sheet of n x n unit squares, each cut along the diagonal from low to high.

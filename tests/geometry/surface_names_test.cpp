@@ -118,6 +118,9 @@ TEST(SurfaceNames, RepeatedOnesAreNumbered) {
   std::vector<std::string> names = {"wall", "inlet", "", "wall", ""};
   number_repeated(names);
   EXPECT_EQ(names, (std::vector<std::string>{"wall.1", "inlet", "", "wall.2", ""}));
+  names = {"wall", "wall.2", "wall", "wall.1"};
+  number_repeated(names);
+  EXPECT_EQ(names, (std::vector<std::string>{"wall.3", "wall.2", "wall.4", "wall.1"}));
 }
 
 }  // namespace

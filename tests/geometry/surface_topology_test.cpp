@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "helpers.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
 
-void append_moved(TriMesh& to, const TriMesh& from, const Vec3& shift) {
-  const auto base = to.num_verts();
-  for (const Vec3& p : from.positions) to.positions.push_back(p + shift);
-  for (const auto& t : from.tris)
-    to.tris.push_back(
-        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+void append_moved(TriMesh& to, TriMesh from, const Vec3& shift) {
+  for (Vec3& p : from.positions) p += shift;
+  append(to, from);
 }
 
 /// A torus of n x m quads.

@@ -8,50 +8,30 @@
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/geometry/surface_topology.h"
 
+#include "fit/fit_helpers.h"
 #include "geometry/tree/triangle_contacts.h"
-#include "helpers.h"
 #include "solids.h"
 
 namespace hexwright {
 namespace {
 
-TriMesh box(const Vec3& lo, const Vec3& hi) {
-  TriMesh mesh = test::unit_cube_surface();
-  for (Vec3& p : mesh.positions)
-    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
-  return mesh;
-}
+using test::box_surface;
+using test::reversed;
 
-/// Joined as in a file; equal positions become one vertex when `is_welded`, as STL readers do.
-TriMesh joined(const std::vector<TriMesh>& parts, bool is_welded = false) {
+/// As in a file, a name for each part.
+TriMesh joined(const std::vector<TriMesh>& parts) {
   TriMesh all;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::vector<VertId> verts;
-    for (const Vec3& p : parts[i].positions) {
-      const auto at = std::find(all.positions.begin(), all.positions.end(), p);
-      verts.push_back(is_welded && at != all.positions.end() ? VertId(at - all.positions.begin())
-                                                             : all.positions.push_back(p));
-    }
-    for (const auto& t : parts[i].tris)
-      all.tris.push_back({verts[t[0].index()], verts[t[1].index()], verts[t[2].index()]});
-    all.group.resize(all.num_tris(), static_cast<std::int32_t>(i));
-    all.group_names.push_back("part " + std::to_string(i));
+  for (const TriMesh& part : parts) {
+    append(all, part);
+    all.group.resize(all.num_tris(), static_cast<std::int32_t>(all.group_names.size()));
+    all.group_names.push_back("part " + std::to_string(all.group_names.size()));
   }
   return all;
 }
 
-TriMesh reversed(TriMesh mesh) {
-  for (auto& t : mesh.tris) std::swap(t[1], t[2]);
-  return mesh;
-}
-
-double volume(const TriMesh& mesh) {
-  double sum = 0;
-  for (TriId t : mesh.tris.ids()) {
-    const auto c = mesh.corners(t);
-    sum += det(c[0], c[1], c[2]) / 6;
-  }
-  return sum;
+/// Equal positions are one vertex, as STL readers make them.
+TriMesh joined(const std::vector<TriMesh>& parts, bool is_welded) {
+  return is_welded ? test::welded(test::joined(parts)) : joined(parts);
 }
 
 /// The triangles of the input, each once, in whatever order.
@@ -79,11 +59,12 @@ void expect_solid(const PreparedSurface& p, double expected_volume, std::size_t 
   EXPECT_TRUE(is_oriented_cycle(p.mesh));
   EXPECT_EQ(topology.num_components, num_components);
   EXPECT_EQ(topology.genus(), genus);
-  EXPECT_NEAR(volume(p.mesh), expected_volume, 1e-9 * expected_volume);
+  EXPECT_NEAR(enclosed_volume(p.mesh), expected_volume, 1e-9 * expected_volume);
   EXPECT_EQ(p.source_tri.size(), p.mesh.num_tris());
 }
 
-const TriMesh kPlate = box({0, 0, 0}, {10, 10, 2}), kPost = box({3, 3, -1}, {7, 7, 9});
+const TriMesh kPlate = box_surface({0, 0, 0}, {10, 10, 2}),
+              kPost = box_surface({3, 3, -1}, {7, 7, 9});
 
 TEST(UniteParts, CrossingBoxesBecomeOne) {
   const TriMesh input = joined({kPlate, kPost});
@@ -126,47 +107,54 @@ TEST(UniteParts, NamesThatPartAPlaneStayApart) {
 TEST(UniteParts, TouchingBoxesBecomeOneHoweverTheirVerticesAreShared) {
   for (bool is_welded : {false, true}) {
     expect_solid(prepare_surface(
-                     joined({box({0, 0, 0}, {2, 2, 2}), box({2, 0, 0}, {5, 2, 2})}, is_welded), {}),
+                     joined({box_surface({0, 0, 0}, {2, 2, 2}), box_surface({2, 0, 0}, {5, 2, 2})},
+                            is_welded),
+                     {}),
                  20, 1);
     expect_solid(prepare_surface(
-                     joined({box({0, 0, 0}, {2, 4, 2}), box({2, 1, 0}, {5, 2, 1})}, is_welded), {}),
+                     joined({box_surface({0, 0, 0}, {2, 4, 2}), box_surface({2, 1, 0}, {5, 2, 1})},
+                            is_welded),
+                     {}),
                  19, 1);
   }
 }
 
 TEST(UniteParts, CubesThatTouchAlongAnEdgeStayTwo) {
-  const TriMesh input = joined({box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1})}, true);
+  const TriMesh input =
+      joined({box_surface({0, 0, 0}, {1, 1, 1}), box_surface({1, 1, 0}, {2, 2, 1})}, true);
   const PreparedSurface p = prepare_surface(input, {});
   expect_solid(p, 2, 2, 0);
   EXPECT_EQ(p.diagnosis.num_nonmanifold_edges, 0u);
 }
 
 TEST(UniteParts, ShellsThatShareTrianglesComeApart) {
-  // The small box stands inside the large one on a part of its floor: equal triangles in equal
-  // orientation, one for each.
-  TriMesh large = box({0, 0, 0}, {4, 4, 4}), small = box({1, 1, 1}, {2, 2, 5});
-  const TriMesh input = joined({large, small, small}, true);
-  const PreparedSurface p = prepare_surface(input, {});
-  expect_solid(p, 64 + 1, 1);
+  // Two boxes on the same floor: equal triangles in equal orientation, one for each.
+  const TriMesh low = box_surface({0, 0, 0}, {1, 1, 1}), high = box_surface({0, 0, 0}, {1, 1, 2});
+  expect_solid(prepare_surface(joined({low, high}, true), {}), 2, 1);
+  // The same box twice, through the top of another.
+  const TriMesh large = box_surface({0, 0, 0}, {4, 4, 4}), post = box_surface({1, 1, 1}, {2, 2, 5});
+  expect_solid(prepare_surface(joined({large, post, post}, true), {}), 64 + 1, 1);
 }
 
 TEST(UniteParts, CavitiesStayAndWhatLiesInThemToo) {
-  const TriMesh shell = box({0, 0, 0}, {10, 10, 10}), cavity = reversed(box({2, 2, 2}, {8, 8, 8}));
-  const TriMesh core = box({4, 4, 4}, {6, 6, 6});
+  const TriMesh shell = box_surface({0, 0, 0}, {10, 10, 10}),
+                cavity = reversed(box_surface({2, 2, 2}, {8, 8, 8}));
+  const TriMesh core = box_surface({4, 4, 4}, {6, 6, 6});
   const PreparedSurface apart = prepare_surface(joined({shell, cavity, core}), {});
   expect_solid(apart, 1000 - 216 + 8, 3);
   EXPECT_EQ(apart.diagnosis.num_united_parts, 0u);
   // A post on the shell leaves the cavity alone.
-  const TriMesh post = box({4, 4, 9}, {6, 6, 12});
+  const TriMesh post = box_surface({4, 4, 9}, {6, 6, 12});
   expect_solid(prepare_surface(joined({shell, cavity, core, post}), {}), 1000 - 216 + 8 + 4 * 2, 3);
   // One that reaches into it ends in it.
-  const TriMesh long_post = box({4.5, 4.5, 7}, {5.5, 5.5, 12});
+  const TriMesh long_post = box_surface({4.5, 4.5, 7}, {5.5, 5.5, 12});
   expect_solid(prepare_surface(joined({shell, cavity, core, long_post}), {}),
                1000 - 216 + 8 + 1 + 2, 3);
 }
 
 TEST(UniteParts, WhatDoesNotMeetStaysToTheLastTriangle) {
-  const TriMesh input = joined({box({0, 0, 0}, {1, 1, 1}), box({1.5, 0, 0}, {2, 1, 1})});
+  const TriMesh input =
+      joined({box_surface({0, 0, 0}, {1, 1, 1}), box_surface({1.5, 0, 0}, {2, 1, 1})});
   const PreparedSurface p = prepare_surface(input, {});
   expect_as_given(p, input);
   EXPECT_TRUE(p.diagnosis.notes.empty());
@@ -175,7 +163,8 @@ TEST(UniteParts, WhatDoesNotMeetStaysToTheLastTriangle) {
 TEST(UniteParts, SeparateJoinsOverlapsOnlyAndAsIsNothing) {
   PrepareOptions options;
   options.parts = Parts::Separate;
-  const TriMesh touching = joined({box({0, 0, 0}, {2, 4, 2}), box({2, 1, 0}, {5, 2, 1})});
+  const TriMesh touching =
+      joined({box_surface({0, 0, 0}, {2, 4, 2}), box_surface({2, 1, 0}, {5, 2, 1})});
   EXPECT_EQ(compute_topology(prepare_surface(touching, options, {}).mesh).num_components, 2u);
   const TriMesh crossing = joined({kPlate, kPost});
   expect_solid(prepare_surface(crossing, options, {}), 328, 1);
@@ -210,8 +199,9 @@ TEST(UniteParts, VerticesOfTheInputKeepTheirPlaces) {
 }
 
 TEST(SmallParts, AreLeftOutWithTheirPlace) {
-  const TriMesh input = joined({box({0, 0, 0}, {10, 10, 10}), box({12, 0, 0}, {12.01, 0.01, 0.01}),
-                                reversed(box({5, 5, 5}, {5.01, 5.01, 5.01}))});
+  const TriMesh input =
+      joined({box_surface({0, 0, 0}, {10, 10, 10}), box_surface({12, 0, 0}, {12.01, 0.01, 0.01}),
+              reversed(box_surface({5, 5, 5}, {5.01, 5.01, 5.01}))});
   PrepareOptions options;
   options.min_part = 0.005;
   const PreparedSurface p = prepare_surface(input, options, {});

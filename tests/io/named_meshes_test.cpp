@@ -8,6 +8,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/mesh/hex_shape.h"
 
 #include "io/sample_meshes.h"
 #include "io/temp_folder.h"
@@ -18,9 +19,11 @@ namespace {
 using test::TempFolder;
 using Points = std::multiset<std::array<double, 3>>;
 
-/// Name of a set -> the centres of its elements, whatever their order and numbers.
+/// Name of a set -> the centres of its elements, whatever their order and numbers. All hexes must
+/// be unit cubes.
 std::map<std::string, Points> centres_by_name(const HexMesh& mesh, bool with_curves) {
   EXPECT_FALSE(mesh.find_problem());
+  for (HexId h : mesh.hexes.ids()) EXPECT_NEAR(hex_volume(mesh.corners(h)), 1, 1e-9);
   std::map<std::string, Points> sets;
   const SetTable table = make_set_table(mesh);
   const auto add = [&](const NamedSet& set, const auto& verts_of) {
@@ -63,6 +66,16 @@ TEST(NamedMeshes, ComeBackFromEveryFormatThatIsRead) {
     }
     EXPECT_EQ(centres_by_name(read_hex_mesh(path), with_curves), expected) << format;
   }
+}
+
+TEST(NamedMeshes, NamesMayHoldTheWordsOfTheFormat) {
+  const TempFolder folder;
+  HexMesh mesh = test::named_box();
+  mesh.region_names[0] = "Vertices";
+  mesh.labels.patch_names[PatchId(0)] = "End # Hexahedra";
+  write_hex_mesh(folder / "a.mesh", mesh);
+  EXPECT_EQ(read_hex_mesh(folder / "a.mesh").labels, mesh.labels);
+  EXPECT_EQ(read_hex_mesh(folder / "a.mesh").region_names, mesh.region_names);
 }
 
 TEST(NamedMeshes, NamesStayWithTheirNumbersInOwnFormats) {
@@ -121,6 +134,22 @@ TEST(Gmsh, ForeignFilesOfBothVersionsRead) {
   const SetTable sets = make_set_table(four);
   EXPECT_EQ(sets.regions[0].name, "solid # 1");
   EXPECT_EQ(sets.patches[0].name, "in let");
+}
+
+// Numbers are indices of names in memory: tags that are too large for it must not cost the names.
+TEST(Gmsh, NamesOfGroupsWithLargeTagsAreKept) {
+  const TempFolder folder;
+  const std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+      "$PhysicalNames\n2\n2 5000000 \"inlet\"\n2 5000001 \"outlet\"\n$EndPhysicalNames\n"
+      "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n"
+      "$EndNodes\n$Elements\n4\n1 3 2 5000000 1 1 2 3 4\n2 3 2 5000001 2 5 6 7 8\n"
+      "3 3 2 2000000000 3 1 2 6 5\n4 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n";
+  const SetTable table = make_set_table(read_hex_mesh(folder.write("a.msh", text)));
+  ASSERT_EQ(table.patches.size(), 3u);
+  EXPECT_EQ(table.patches[0].name, "inlet");
+  EXPECT_EQ(table.patches[1].name, "outlet");
+  EXPECT_EQ(table.patches[2].name, "PATCH_2");
 }
 
 TEST(Gmsh, EntitiesAreGroupsWhereThereAreNone) {
@@ -218,6 +247,27 @@ TEST(Abaqus, ForeignFilesRead) {
   for (std::size_t q : table.patches[0].members)
     for (VertId v : mesh.labels.quads[q].verts) EXPECT_EQ(mesh.positions[v].z, 1);
   EXPECT_EQ(mesh.labels.corners, (std::vector{VertId(0), VertId(8)}));
+}
+
+TEST(Abaqus, SetsThatNameEachOtherDoNotMultiply) {
+  const TempFolder folder;
+  std::string text = kForeignInp;
+  std::string sets = "*Elset, elset=a\n7, 8\n";
+  for (int i = 0; i < 40; ++i) sets += "*Elset, elset=b\na, b\n*Elset, elset=a\nb, a, nothing\n";
+  text.insert(text.find("*Nset"), sets + "*Surface, name=all\nb, S1\n");
+  const SetTable table = make_set_table(read_hex_mesh(folder.write("a.inp", text)));
+  ASSERT_EQ(table.patches.size(), 3u);
+  EXPECT_EQ(table.patches[0].name, "all");
+  EXPECT_EQ(table.patches[0].members.size(), 2u);
+}
+
+TEST(Abaqus, SidesOfNothingArePassedOver) {
+  const TempFolder folder;
+  std::string text = kForeignInp;
+  text.replace(text.find("7, s6\n"), 6, ", s6\nnowhere, s6\n99999999999999999999, s6\n");
+  const SetTable table = make_set_table(read_hex_mesh(folder.write("a.inp", text)));
+  EXPECT_EQ(table.patches[1].name, "ends");
+  EXPECT_EQ(table.patches[1].members.size(), 1u);
 }
 
 TEST(Abaqus, WhatCannotBeReadIsNamedWithItsLine) {

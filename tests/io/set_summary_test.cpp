@@ -1,6 +1,7 @@
 // Measures, shapes and place names of sets.
 #include "hexwright/io/set_summary.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -74,6 +75,25 @@ TEST(SetSummary, UnnamedPatchesAreCalledByTheirPlaceWhereItIsPlain) {
   EXPECT_EQ(name(5), "PATCH_5");
   EXPECT_EQ(name(6), "PATCH_6");
   EXPECT_EQ(name(2), "PATCH_2") << "the name is a user's";
+}
+
+// In letters that no format has to change, and without the point that would make it a group's part.
+TEST(SetSummary, NamesByPlaceAreWords) {
+  for (const double scale : {1.25, 1e-6, 1e6}) {
+    HexMesh mesh = quarter_ring();
+    for (Vec3& p : mesh.positions) p = p * scale;
+    SetTable table = make_set_table(mesh);
+    name_by_place(mesh, table);
+    for (const NamedSet& set : table.patches)
+      EXPECT_TRUE(std::all_of(set.name.begin(), set.name.end(), is_word_letter)) << set.name;
+    if (scale == 1.25) {
+      EXPECT_EQ(table.patches[1].name, "patch_cyl_r2_5");
+    }
+    mesh.labels.patch_names.resize(6);
+    for (const NamedSet& set : table.patches)
+      mesh.labels.patch_names[PatchId(set.number)] = set.name;
+    EXPECT_TRUE(make_set_table(mesh).patch_groups.empty());
+  }
 }
 
 TEST(SetSummary, ASideThatIsNotQuiteFlatIsAPlane) {

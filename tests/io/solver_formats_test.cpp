@@ -101,6 +101,31 @@ TEST(OpenFoam, QuadsBetweenHexesAreFaceZones) {
   EXPECT_NE(zones.find("interface\n{"), std::string::npos);
   EXPECT_NE(zones.find("flipMap List<bool>\n1\n(\n0\n"), std::string::npos);
   EXPECT_EQ(test::slurp(folder / "polyMesh/boundary").find("interface"), std::string::npos);
+  std::reverse(mesh.labels.quads[0].verts.begin(), mesh.labels.quads[0].verts.end());
+  write_hex_mesh(folder / "polyMesh", mesh);
+  EXPECT_NE(test::slurp(folder / "polyMesh/faceZones").find("flipMap List<bool>\n1\n(\n1\n"),
+            std::string::npos);
+}
+
+TEST(OpenFoam, FacesOfZonesAreThoseOfTheQuads) {
+  const TempFolder folder;
+  HexMesh mesh = shuffled_box();
+  const HexNeighbors neighbors = compute_hex_neighbors(mesh);
+  HexFace inner;
+  for (HexId h : mesh.hexes.ids())
+    if (neighbors.neighbor[h][0].is_valid()) inner = {h, 0};
+  const HexId other = neighbors.neighbor[inner.hex][0];
+  mesh.labels.quads.push_back({face_verts(mesh, inner), PatchId(0)});
+  write_hex_mesh(folder / "polyMesh", mesh);
+  const std::string zones = test::slurp(folder / "polyMesh/faceZones");
+  const auto at = zones.find("List<label>\n1\n(\n");
+  ASSERT_NE(at, std::string::npos);
+  const auto face = std::size_t(std::stoi(zones.substr(at + 16)));
+  const auto owner = label_list(test::slurp(folder / "polyMesh/owner"));
+  const auto neighbour = label_list(test::slurp(folder / "polyMesh/neighbour"));
+  ASSERT_LT(face, neighbour.size());
+  EXPECT_EQ(owner[face], std::min(inner.hex, other).value());
+  EXPECT_EQ(neighbour[face], std::max(inner.hex, other).value());
 }
 
 TEST(Nastran, NumbersFillTheirFields) {
@@ -125,7 +150,19 @@ TEST(SolverFormats, QuadsThatAreNoFaceAreRefused) {
   const TempFolder folder;
   HexMesh mesh = test::box_hex_mesh(1, 1, 1);
   mesh.labels.quads.push_back({{VertId(0), VertId(1), VertId(6), VertId(7)}, PatchId(0)});
-  for (const char* format : {"abaqus", "mfem", "nastran", "su2", "openfoam"}) {
+  for (const char* format : {"abaqus", "exodus", "mfem", "nastran", "su2", "openfoam"}) {
+    WriteHexOptions options;
+    options.format = format;
+    EXPECT_THROW(write_hex_mesh(folder / "a", mesh, options), Error) << format;
+  }
+  EXPECT_EQ(folder.num_files(), 0u);
+}
+
+TEST(SolverFormats, FacesOfThreeHexesAreRefusedWhereEveryFaceHasItsPlace) {
+  const TempFolder folder;
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  for (int copy = 0; copy < 2; ++copy) mesh.hexes.push_back(mesh.hexes[HexId(0)]);
+  for (const char* format : {"mfem", "su2", "openfoam"}) {
     WriteHexOptions options;
     options.format = format;
     EXPECT_THROW(write_hex_mesh(folder / "a", mesh, options), Error) << format;

@@ -51,8 +51,16 @@ TEST(SurfaceNames, BytesThatAreNoTextAreReplaced) {
                                      "c\xc3\xa9\xe2\x82"))
                 .group_names,
             (Names{"a_b_c\xc3\xa9__"}));
+  EXPECT_EQ(
+      read_text("a.stl", solid("solid \xed\xa0\x80 \xe0\x80\x80 \xf4\x90\x80\x80")).group_names,
+      (Names{"___ ___ ____"}))
+      << "a surrogate, a form that is too long, and beyond the last character";
   EXPECT_EQ(read_text("a.stl", solid("solid " + std::string(500, 'x'))).group_names[0].size(),
             200u);
+  std::string long_name = "x";
+  for (int i = 0; i < 100; ++i) long_name += "\xe2\x82\xac";
+  EXPECT_EQ(read_text("a.stl", solid("solid " + long_name)).group_names[0].size(), 199u)
+      << "no character is cut in two";
 }
 
 const std::string kVerts = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";

@@ -9,24 +9,8 @@
 namespace hexwright {
 namespace {
 
-TriMesh box(const Vec3& lo, const Vec3& hi) {
-  TriMesh mesh = test::unit_cube_surface();
-  for (Vec3& p : mesh.positions)
-    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
-  return mesh;
-}
-
-TriMesh joined(const std::vector<TriMesh>& parts) {
-  TriMesh all;
-  for (const TriMesh& part : parts) {
-    const std::size_t base = all.num_verts();
-    for (const Vec3& p : part.positions) all.positions.push_back(p);
-    for (const auto& t : part.tris)
-      all.tris.push_back(
-          {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
-  }
-  return all;
-}
+using test::box_surface;
+using test::joined;
 
 struct Outcome {
   MeshResult result;
@@ -46,27 +30,30 @@ Outcome expect_meshed(const TriMesh& surface, std::size_t num_bodies, double vol
 }
 
 TEST(FieldInputs, CrossingBoxesAreMeshedAsTheirUnion) {
-  const Outcome crossing =
-      expect_meshed(joined({box({0, 0, 0}, {10, 10, 2}), box({3, 3, -1}, {7, 7, 9})}), 1, 328);
+  const Outcome crossing = expect_meshed(
+      joined({box_surface({0, 0, 0}, {10, 10, 2}), box_surface({3, 3, -1}, {7, 7, 9})}), 1, 328);
   EXPECT_LT(crossing.num_hexes(), 1.2 * 385);
   EXPECT_EQ(crossing.result.surface.num_united_parts, 2u);
   EXPECT_EQ(crossing.result.verdict.features->num_corners_recovered, 24u);
 }
 
 TEST(FieldInputs, TouchingBoxesAreOneBody) {
-  const Outcome touching =
-      expect_meshed(joined({box({0, 0, 0}, {10, 5, 4}), box({2, 1, 4}, {8, 4, 7})}), 1, 254);
+  const Outcome touching = expect_meshed(
+      joined({box_surface({0, 0, 0}, {10, 5, 4}), box_surface({2, 1, 4}, {8, 4, 7})}), 1, 254);
   EXPECT_LT(touching.num_hexes(), 1000u);
 }
 
 TEST(FieldInputs, ASmallBodyBesideALargeOneIsKept) {
   // A thousandth of the volume, and nearer than its own size.
-  expect_meshed(joined({box({0, 0, 0}, {10, 10, 10}), box({10.8, 4, 4}, {11.8, 5, 5})}), 2, 1001);
+  expect_meshed(
+      joined({box_surface({0, 0, 0}, {10, 10, 10}), box_surface({10.8, 4, 4}, {11.8, 5, 5})}), 2,
+      1001);
 }
 
 TEST(FieldInputs, ACrumbIsLeftOutWithItsPlace) {
   const Outcome outcome = expect_meshed(
-      joined({box({0, 0, 0}, {10, 8, 6}), box({11, 1, 1}, {11.02, 1.02, 1.02})}), 1, 480);
+      joined({box_surface({0, 0, 0}, {10, 8, 6}), box_surface({11, 1, 1}, {11.02, 1.02, 1.02})}), 1,
+      480);
   EXPECT_EQ(outcome.result.surface.num_small_parts, 1u);
   ASSERT_FALSE(outcome.result.warnings.empty());
   EXPECT_NE(outcome.result.warnings[0].find("the part at (11.01, 1.01, 1.01)"), std::string::npos)
@@ -74,8 +61,9 @@ TEST(FieldInputs, ACrumbIsLeftOutWithItsPlace) {
 }
 
 TEST(FieldInputs, ABladeInAShaftIsWhole) {
-  expect_meshed(joined({test::cylinder_surface(0, 2, 0, 6, 48), box({1, -0.1, 1}, {8, 0.1, 5})}), 1,
-                75.2 + 0.2 * 4 * 6.005);
+  expect_meshed(
+      joined({test::cylinder_surface(0, 2, 0, 6, 48), box_surface({1, -0.1, 1}, {8, 0.1, 5})}), 1,
+      75.2 + 0.2 * 4 * 6.005);
 }
 
 TEST(FieldInputs, ASlenderRodKeepsItsVolumeAndItsRims) {

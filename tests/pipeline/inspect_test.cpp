@@ -1,34 +1,29 @@
 #include "hexwright/pipeline/inspect.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "helpers.h"
+#include "fit/fit_helpers.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
 
-TriMesh box(const Vec3& lo, const Vec3& hi) {
-  TriMesh mesh = test::unit_cube_surface();
-  for (Vec3& p : mesh.positions)
-    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
-  return mesh;
-}
+using test::box_surface;
 
 void append(TriMesh& to, const TriMesh& from, const std::string& name) {
-  const std::size_t base = to.num_verts();
-  for (const Vec3& p : from.positions) to.positions.push_back(p);
-  for (const auto& t : from.tris)
-    to.tris.push_back(
-        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+  append(to, from);
   to.group.resize(to.num_tris(), static_cast<std::int32_t>(to.group_names.size()));
   to.group_names.push_back(name);
 }
 
 TEST(Inspect, CrossingSolidsAreCountedWithTheirPlaces) {
   TriMesh surface;
-  append(surface, box({0, 0, 0}, {10, 10, 2}), "plate");
-  append(surface, box({3, 3, -1}, {7, 7, 9}), "post");
+  append(surface, box_surface({0, 0, 0}, {10, 10, 2}), "plate");
+  append(surface, box_surface({3, 3, -1}, {7, 7, 9}), "post");
   const SurfaceInspection s = inspect_surface(surface, {}, {});
   EXPECT_EQ(s.num_solids, 2u);
   EXPECT_EQ(s.num_open_edges + s.num_nonmanifold_edges + s.num_open_tris, 0u);
@@ -54,11 +49,9 @@ TEST(Inspect, CrossingSolidsAreCountedWithTheirPlaces) {
 
 TEST(Inspect, ThinSpotsAndCavitiesAreTold) {
   TriMesh surface;
-  append(surface, box({0, 0, 0}, {100, 100, 0.2}), "sheet");
-  append(surface, box({0, 0, 50}, {40, 40, 90}), "block");
-  TriMesh hole = box({10, 10, 60}, {20, 20, 70});
-  for (auto& t : hole.tris) std::swap(t[1], t[2]);
-  append(surface, hole, "hole");
+  append(surface, box_surface({0, 0, 0}, {100, 100, 0.2}), "sheet");
+  append(surface, box_surface({0, 0, 50}, {40, 40, 90}), "block");
+  append(surface, test::reversed(box_surface({10, 10, 60}, {20, 20, 70})), "hole");
   const SurfaceInspection s = inspect_surface(surface, {}, {});
   EXPECT_EQ(s.num_solids, 2u);
   EXPECT_EQ(s.num_cavities, 1u);
@@ -74,7 +67,53 @@ TEST(Inspect, WhatWouldBeRefusedIsSaidAndNotThrown) {
   for (Vec3& p : sheet.positions) p.z = 0;
   const SurfaceInspection s = inspect_surface(sheet, {}, {});
   EXPECT_NE(s.refusal.find("flat"), std::string::npos) << s.refusal;
-  EXPECT_NE(inspection_to_text(s).find("would refuse"), std::string::npos);
+  const std::string text = inspection_to_text(s);
+  EXPECT_NE(text.find("would refuse"), std::string::npos);
+  EXPECT_EQ(text.find("crossings"), std::string::npos) << "they were not looked for";
+}
+
+TEST(Inspect, EdgesAreThoseBeforeHolesAreClosed) {
+  TriMesh open = test::unit_cube_surface();
+  open.tris.resize(10);  // without its top
+  const SurfaceInspection s = inspect_surface(open, {}, {});
+  EXPECT_EQ(s.num_open_edges, 4u);
+  EXPECT_EQ(s.num_nonmanifold_edges, 0u);
+  EXPECT_EQ(s.num_solids, 1u);
+  EXPECT_NEAR(s.area, 6, 1e-12);
+  // Two cubes that share an edge, and no more.
+  const TriMesh both = test::welded(
+      test::joined({box_surface({0, 0, 0}, {1, 1, 1}), box_surface({1, 1, 0}, {2, 2, 1})}));
+  EXPECT_EQ(inspect_surface(both, {}, {}).num_nonmanifold_edges, 1u);
+  EXPECT_EQ(inspect_surface(both, {}, {}).num_solids, 2u);
+}
+
+// Lengths, places and volumes are the world's, however the part is placed to be meshed.
+TEST(Inspect, SpeaksOfTheSurfaceInItsOwnUnits) {
+  TriMesh sheet = box_surface({0, 0, 0}, {100, 80, 0.2});
+  const double c = 0.8, s = 0.6;
+  for (Vec3& p : sheet.positions) p = Vec3{c * p.x - s * p.z, p.y, s * p.x + c * p.z} * 1000.0;
+  const SurfaceInspection found = inspect_surface(sheet, {}, {});
+  EXPECT_NEAR(found.volume / 1.6e12, 1, 1e-9);
+  EXPECT_NEAR(found.least_thickness, 200, 0.1);
+  ASSERT_FALSE(found.thin.empty());
+  for (const InspectedPlace& place : found.thin) {
+    const Vec3& p = place.position;
+    const double across = (c * p.z - s * p.x) / 1000;
+    EXPECT_NEAR(std::min(std::abs(across), std::abs(across - 0.2)), 0, 1e-6);
+  }
+}
+
+TEST(Inspect, PlacesOfCrossingsAreSpreadOverAllOfThem) {
+  TriMesh comb;
+  append(comb, box_surface({0, 0, 0}, {100, 2, 2}), "bar");
+  for (int i = 0; i < 9; ++i)
+    append(comb, box_surface({10.0 * i + 5, -1, 0.5}, {10.0 * i + 7, 3, 1.5}), "tooth");
+  const SurfaceInspection s = inspect_surface(comb, {}, {});
+  ASSERT_EQ(s.crossings.size(), s.kMaxPlaces);
+  const auto [first, last] =
+      std::ranges::minmax(s.crossings, {}, [](const InspectedPlace& p) { return p.position.x; });
+  EXPECT_LT(first.position.x, 20);
+  EXPECT_GT(last.position.x, 70);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 /// All tables, each of a struct of its own that lives as long.
 struct AllTables {
-  MeshOptions mesh, grid;
+  MeshOptions mesh, grid, inspect;
   CompleteOptions complete;
   DualStageOptions dual;
   FitStageOptions fit;
@@ -23,9 +23,10 @@ struct AllTables {
   FeatureOptions features;
   EvaluateOptions evaluate = default_evaluate_options();
   std::vector<OptionTable> tables = {
-      make_option_table(mesh),     make_grid_option_table(grid), make_option_table(complete),
-      make_option_table(dual),     make_option_table(fit),       make_option_table(improve),
-      make_option_table(polycube), make_option_table(features),  make_option_table(evaluate)};
+      make_option_table(mesh),           make_grid_option_table(grid), make_option_table(complete),
+      make_option_table(dual),           make_option_table(fit),       make_option_table(improve),
+      make_option_table(polycube),       make_option_table(features),  make_option_table(evaluate),
+      make_inspect_option_table(inspect)};
 };
 
 TEST(OptionTable, NamesAreUniqueAndEveryRowIsExplained) {
@@ -56,7 +57,7 @@ TEST(OptionTable, EveryOptionRefusesNonsenseAndThenChangesNothing) {
   const std::string before = mesh_options_to_json(all.mesh);
   for (const OptionTable& table : all.tables)
     for (const NamedOption& row : table)
-      for (const char* text : {"nonsense", "", "-7", "nan", "1e400", "3x"})
+      for (const char* text : {"nonsense", "", "-7", "nan", "1e400", "3x", " 1", "0x1", "%"})
         EXPECT_THROW(row.set(text), Error) << row.name << " = " << text;
   EXPECT_EQ(mesh_options_to_json(all.mesh), before);
 }

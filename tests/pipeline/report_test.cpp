@@ -37,6 +37,24 @@ TEST(Report, SaysWhatTheResultHolds) {
   EXPECT_LE(seconds, json["seconds"].get<double>() * 1.001);
 }
 
+// What follows from other wishes is written as it was used.
+TEST(Report, OptionsAreThoseThatTheSurfaceWasPreparedBy) {
+  MeshOptions options;
+  options.sizing.tolerance = 0.02;
+  const auto written = [&] { return nlohmann::json::parse(mesh_options_to_json(options)); };
+  EXPECT_EQ(written()["min_part"], 0.02);
+  EXPECT_EQ(written()["placement"], "faces");
+  EXPECT_EQ(written()["balance"], "weak");
+  options.sizing.sizing = Sizing::Thickness;
+  options.fit.carve.side = Side::Both;
+  options.complete.pairing = Pairing::Sheets;
+  EXPECT_EQ(written()["min_part"], 0);
+  EXPECT_EQ(written()["placement"], "as-given");
+  EXPECT_EQ(written()["side"], "both");
+  EXPECT_EQ(written()["pairing"], "sheets");
+  EXPECT_EQ(written()["balance"], "relaxed");
+}
+
 TEST(Report, StagesWriteTheirOwnParts) {
   CompleteReport complete;
   complete.num_output_cells = 17;

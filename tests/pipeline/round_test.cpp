@@ -118,6 +118,22 @@ TEST_F(RoundTest, WithinTheGateTopologyGoesBeforeDistance) {
   expect_better(torus, sphere);
 }
 
+// What users are not told of, the mean alone, may be given up for a better shape.
+TEST_F(RoundTest, WhatIsMetStaysMet) {
+  const RoundInput input{target_, options_, plan_, context_};
+  const Round before = round(0.9, 0.3);
+  EXPECT_TRUE(meets_no_less(input, before, before));
+  EXPECT_TRUE(meets_no_less(input, round(1.2, 0.3), before));
+  EXPECT_FALSE(meets_no_less(input, before, round(1.2, 0.3)));
+  EXPECT_FALSE(meets_no_less(input, before, round(0.9, 0.1)));
+  Round rough = before, broken = before;
+  rough.verdict.distance->mean_to_mesh = 2 * mean_goal(options_);
+  EXPECT_TRUE(meets_no_less(input, before, rough));
+  broken.verdict.failures.push_back("a vertex lies inside an edge of another hex");
+  EXPECT_FALSE(meets_no_less(input, before, broken));
+  EXPECT_TRUE(meets_no_less(input, broken, broken));
+}
+
 TEST_F(RoundTest, OnlyWithinTheGateIsGrowthOutOfProportion) {
   plan_.budgets.growth = 2.5;
   const RoundInput input{target_, options_, plan_, context_};

@@ -53,6 +53,8 @@ def check_wheel():
     names = zipfile.ZipFile(WHEEL).namelist()
     assert WHEEL.stat().st_size < 8e6, WHEEL.stat().st_size
     assert not any(name.startswith(("include/", "lib/", "bin/")) for name in names), names
+    for licence in ("LICENSE", "THIRD_PARTY.md", "Apache-2.0.txt", "font_LICENSE.md"):
+        assert any(name.endswith("/" + licence) for name in names), licence
 
 
 def check_meshing():

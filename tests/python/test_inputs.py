@@ -21,8 +21,15 @@ def test_any_number_type_gives_the_same_surface(cube, type_of_points, type_of_fa
 def test_memory_may_lie_in_any_way(cube):
     vertices, faces = cube
     for points in (np.asfortranarray(vertices), np.repeat(vertices, 2, axis=0)[::2], vertices.tolist(),
-                   np.hstack([vertices, vertices])[:, :3], vertices[::-1][::-1]):
+                   np.hstack([vertices, vertices])[:, :3], vertices[::-1][::-1], as_field_of_records(vertices)):
         assert np.array_equal(hw.Surface(points, faces[:, ::-1][:, ::-1]).vertices, vertices)
+
+
+def as_field_of_records(vertices):
+    """Rows whose distance is no multiple of a number's size."""
+    records = np.zeros(len(vertices), dtype=[("place", "f8", 3), ("kind", "u1")])
+    records["place"] = vertices
+    return records["place"]
 
 
 def test_read_only_arrays_are_taken_and_nothing_is_changed(cube):
@@ -119,10 +126,13 @@ def test_unknown_and_wrong_options_are_said(cube):
         hw.mesh(*cube, max_lvl=3)
     for options, words in (({"tolerance": 5}, "tolerance: '5' is not a share"), ({"rounds": 2.5}, "no whole number"),
                            ({"pairing": "all"}, "pairing: 'all' is none of"), ({"tolerance": [1]}, "list is neither"),
+                           ({"tolerance": np.array([0.1, 0.2])}, "ndarray is neither"),
                            ({"threads": -1}, "threads: -1"), ({"max_level": True}, "no whole number"),
                            ({"tolerance": np.nan}, "not a share"), ({"min_level": 5, "max_level": 4}, "level")):
         with pytest.raises(hw.BadInput, match=words):
             hw.mesh(*cube, **options)
+    with pytest.raises(hw.BadInput, match="'meshing' is none of mesh, grid, .*evaluate"):
+        hw.options("meshing")
     with pytest.raises(TypeError):
         hw.mesh(*cube, progress="yes")
     with pytest.raises(TypeError):

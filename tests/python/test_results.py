@@ -125,6 +125,9 @@ def test_scikit_fem_integrates_over_volume_and_patches(cube_mesh):
     for name in cube_mesh.patches:
         area = one.assemble(skfem.FacetBasis(mesh, skfem.ElementHex1(), facets=name))
         assert area == pytest.approx(1, rel=1e-6), name
+    tags = np.where(np.arange(len(cube_mesh.hexes)) % 2, -2, 5)
+    regions = hw.HexMesh(cube_mesh.points, cube_mesh.hexes, tags).to_skfem().subdomains
+    assert set(regions) == {"REGION_MINUS_2", "REGION_5"}, "as in files"
 
 
 def test_pictures_and_html(cube_mesh):
@@ -167,6 +170,17 @@ def test_stages_say_what_they_miss(cube):
     far = (cube[0] + 100, cube[1])
     with pytest.raises(hw.BadGeometry, match="overlap"):
         hw.fit(hw.dual(hw.complete(deep)), far)
+
+
+def test_a_mesh_that_no_gate_has_judged_is_checked_when_asked():
+    corner = np.indices((2, 2, 2)).reshape(3, -1).T
+    cells = hw.Grid([1] * 7 + [2] * 8, np.vstack([corner[1:], corner])).to_hexes()
+    better = hw.improve(cells, rounds=1)
+    for mesh in (cells, better):
+        report = dict(mesh.report)
+        assert not mesh.valid and mesh.failures, "levels meet with hanging nodes"
+        assert mesh.report == report
+    assert "failures</th><td>none" not in cells._repr_html_()
 
 
 def test_improve_leaves_its_input_and_makes_it_better(cube_mesh):
@@ -254,6 +268,18 @@ def test_the_page_to_look_into_a_mesh_is_that_of_the_command_line(cube_mesh, tmp
     subprocess.run([program, "view", tmp_path / "cube.vtu", "-o", tmp_path / "a.html", "--no-open", "-q"], check=True)
     assert cube_mesh.view(tmp_path / "cube.vtu.html", open=False) == str(tmp_path / "cube.vtu.html")
     assert (tmp_path / "cube.vtu.html").read_bytes() == (tmp_path / "a.html").read_bytes()
+
+
+def test_the_page_without_a_name_lies_in_a_folder_of_its_own(cube, cube_mesh, tmp_path):
+    import pathlib
+
+    first, second = (pathlib.Path(cube_mesh.view(surface=cube, open=False)) for _ in range(2))
+    assert first != second and first.suffix == ".html" and "array-distance" in first.read_text()
+    for page in (first, second):
+        page.unlink()
+        page.parent.rmdir()
+    with pytest.raises(hw.BadInput, match="missing"):
+        cube_mesh.view(tmp_path / "missing/a.html", open=False)
 
 
 def test_names_that_a_format_cannot_take_are_told(cube, tmp_path):

@@ -146,6 +146,8 @@ TEST(Judge, WarnsWhenTheGenusDiffers) {
   EXPECT_TRUE(verdict.is_valid());
   ASSERT_EQ(verdict.warnings.size(), 1u);
   EXPECT_NE(verdict.warnings[0].find("genus 1"), std::string::npos);
+  EXPECT_NE(verdict_to_text(verdict).find("NOT the surface's: it has 1 component and genus 0"),
+            std::string::npos);
 }
 
 // A mesh around the unit cube: the box [-1, 2]^3 without its middle.
@@ -171,6 +173,8 @@ TEST(Judge, LabeledQuadsAloneStandForTheSurfaceWhenAsked) {
   EXPECT_LT(verdict.distance->max_two_way(), 1e-14);
   EXPECT_NEAR(verdict.features->length_share, 1, 1e-12);
   EXPECT_TRUE(verdict.warnings.empty());
+  // The box around the surface has a boundary of its own: there is nothing to compare.
+  EXPECT_EQ(verdict_to_text(verdict).find("NOT the surface's"), std::string::npos);
 }
 
 /// A mesh far away and in small units is judged as it would be about the origin, and told so.

@@ -8,6 +8,7 @@
 #include "geometry/tree/point_tree.h"
 #include "helpers.h"
 #include "quality/triangle_samples.h"
+#include "solids.h"
 
 namespace hexwright {
 namespace {
@@ -264,13 +265,6 @@ TEST(SurfaceDistance, LeavesOutTheMeshThatClosesAHole) {
   EXPECT_GT(measure_distance(mesh, tree, options).max_to_surface, 0.2);
 }
 
-TriMesh box_surface(const Vec3& lo, const Vec3& hi) {
-  TriMesh mesh = test::unit_cube_surface();
-  for (Vec3& p : mesh.positions)
-    p = {lo.x + p.x * (hi.x - lo.x), lo.y + p.y * (hi.y - lo.y), lo.z + p.z * (hi.z - lo.z)};
-  return mesh;
-}
-
 /// The unit cells of a lattice of 10 x 10 x 10 within either of two boxes.
 HexMesh cells_within(const Box3& a, const Box3& b) {
   const HexMesh all = test::box_hex_mesh(10, 10, 10);
@@ -288,15 +282,8 @@ HexMesh cells_within(const Box3& a, const Box3& b) {
 // chunks. A mesh that lacks a corner is as far off as it is.
 TEST(SurfaceDistance, HiddenWallsChangeNoFigure) {
   const Box3 plate{{0, 0, 1}, {10, 10, 3}}, post{{3, 3, 0}, {7, 7, 10}};
-  TriMesh crossing = box_surface(plate.lo, plate.hi);
-  for (const TriMesh& more : {box_surface(post.lo, post.hi)}) {
-    const std::size_t base = crossing.num_verts();
-    for (const Vec3& p : more.positions) crossing.positions.push_back(p);
-    for (const auto& t : more.tris)
-      crossing.tris.push_back(
-          {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
-  }
-  const SurfaceTree tree(crossing);
+  const SurfaceTree tree(
+      test::joined({test::box_surface(plate.lo, plate.hi), test::box_surface(post.lo, post.hi)}));
   HexMesh mesh = cells_within(plate, post);
   for (double spacing : {0.01, 0.004, 0.0013}) {
     DistanceOptions options;

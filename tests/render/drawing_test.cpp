@@ -213,6 +213,11 @@ TEST(Font, IsClippedAtEveryBorder) {
 TEST(Font, NamesAreUtf8AndShortenedByWholeCharacters) {
   EXPECT_GT(text_width("\xc3\xa4", 20), 5);                        // a with two dots
   EXPECT_EQ(text_width("\xe4\xb8\xad", 20), text_width("?", 20));  // no glyph
+  // A name in Latin-1: its bytes are no characters, but what stands behind them is.
+  EXPECT_EQ(text_width("Gr\xfc\xdf!", 20), text_width("Gr?"
+                                                      "?!",
+                                                      20));
+  EXPECT_EQ(text_width("a\x80xy\xe4", 20), text_width("a?xy?", 20));
   EXPECT_EQ(shorten_text("inlet", 20, 500), "inlet");
   const std::string name =
       "K\xc3\xbchlmantel au\xc3\x9f"

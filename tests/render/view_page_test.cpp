@@ -18,6 +18,7 @@
 #include "render/page/packing.h"
 #include "render/page/view_arrays.h"
 #include "render/page/view_sample.h"
+#include "render/page/view_summary.h"
 
 namespace hexwright {
 namespace {
@@ -121,6 +122,29 @@ TEST(ViewSample, OfALargeMeshHasSkinSlicesAndWorst) {
         std::any_of(beyond.begin(), beyond.end(), [](HexId other) { return !other.is_valid(); });
     EXPECT_TRUE(is_taken || (!is_skin && values[h] == 1)) << h.value();
   }
+  // Behind the worst by number (all values but five are equal), inside are the slices alone: the
+  // hexes on both sides of the planes a little beyond 7.5, 15 and 22.5.
+  for (int i = 1; i < 29; ++i) {
+    const HexId h((25 * 30 + 20) * 30 + i);
+    const bool is_sliced = i == 7 || i == 8 || i == 14 || i == 15 || i == 22 || i == 23;
+    EXPECT_EQ(std::binary_search(part.hexes.begin(), part.hexes.end(), h), is_sliced) << i;
+  }
+}
+
+// Other programs number their sets as they like.
+TEST(ViewPage, HoldsAnyNumberOfPatchesAndRegions) {
+  HexMesh mesh = box_hex_mesh(2, 1, 1);
+  mesh.labels.quads.push_back({face_verts(mesh, {HexId(0), 0}), PatchId(70000)});
+  const ViewScene scene = make_view_scene(mesh, {});
+  const ViewArrays arrays = make_view_arrays(mesh, scene, {}, region_tags(mesh));
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+                                  [](const auto& array) { return array.first == "patches"; });
+  ASSERT_NE(found, arrays.end());
+  const std::string bytes = inflate(from_base64(found->second), 4 * 10);
+  std::uint32_t first = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    first |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[10 * k])) << (8 * k);
+  EXPECT_EQ(first, 70001U);
 }
 
 TEST(ViewPage, IsTheSameForAnyNumberOfThreads) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Builds the page of viewer/ anew and compares it with viewer/dist/viewer.html, byte by byte.
+"""Builds the page of viewer/ anew and compares it with viewer/dist/viewer.html, byte by byte. Its colours are those of the program's pictures.
 
 Usage: rebuild_test.py SOURCE_DIR. Exit code 77 (skipped) without node and npm, or when npm cannot get the packages of the lock file.
 """
+import re
 import shutil
 import subprocess
 import sys
@@ -10,8 +11,17 @@ import tempfile
 from pathlib import Path
 
 
+def check_colors(source):
+    program, page = ((source / name).read_text() for name in ("src/render/color.cpp", "viewer/src/colors.js"))
+    for table, name in (("kScale", "QUALITY"), ("kCategories", "CATEGORIES")):
+        rows = [re.search(pattern, text, re.S)[1] for pattern, text in ((table + r" = \{\{(.*?)\}\};", program), (name + r" = \[\[(.*?)\]\];", page))]
+        first, second = (re.findall(r"\d+", text) for text in rows)
+        assert first == second and len(first) >= 30, f"{table} of src/render/color.cpp is not {name} of viewer/src/colors.js"
+
+
 def main():
     source = Path(sys.argv[1])
+    check_colors(source)
     lock = (source / "viewer/package-lock.json").read_text()
     assert '"resolved"' not in lock, "the lock file names an address: see viewer/.npmrc"
     if not shutil.which("node") or not shutil.which("npm"):

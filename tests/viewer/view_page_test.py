@@ -162,6 +162,16 @@ class Step(PageTest):
             kept = ((quality >= low / 50) | (low == 0)) & ((quality < high / 50) | (high == 50))
             self.assert_shows(viewer, self.mesh, kept)
 
+    def test_keys_and_sliders_keep_a_step_between_the_limits(self):
+        viewer, quality = self.open(self.file), self.mesh.scaled_jacobians()
+        viewer.slide("high", 1)
+        viewer.slide("low", 40)
+        for high in (41, 40, 39):
+            kept = (quality >= (high - 1) / 50) & (quality < high / 50)
+            self.assertGreater(kept.sum(), 0)
+            self.assert_shows(viewer, self.mesh, kept)
+            viewer.press("[")
+
     def test_cut_peel_filter_and_regions_work_together(self):
         viewer = self.open(self.file)
         viewer.press("y", "p")
@@ -256,7 +266,7 @@ class Step(PageTest):
         self.assertEqual(again.screenshot(), viewer.screenshot())
 
     def test_addresses_that_make_no_sense_are_passed_over(self):
-        for hash in ("#cut=q,1,2", "#eye=1,2", "#hex=99999999,3&patch=-4&worst=1e9&color=%00&quality=x,y&regions=,,&opacity=nan", "#%%%"):
+        for hash in ("#cut=q,1,2", "#cut=toString,1,0,0,0.5,0", "#eye=1,2", "#hex=99999999,3&patch=-4&worst=1e9&color=%00&quality=x,y&regions=,,&opacity=nan", "#quality=40,10&peel=200", "#%%%"):
             self.assertEqual(self.open(self.file, hash=hash).hexes(), len(self.mesh.hexes), hash)
 
     def test_the_picture_is_a_png(self):
@@ -506,6 +516,13 @@ class Large(PageTest):
         self.assertEqual(viewer.hexes(), int((taken & (side if viewer.pressed("#flip") else ~side)).sum()))
         viewer.press("w")
         self.assertIn(f"hex {np.argmin(quality):,}", viewer.text("#picked"))
+        viewer.press("x")  # from the plane through the worst hex to the slice nearest by
+        offset = float(viewer.page.evaluate("document.getElementById('offset').value"))
+        share = min((0.2503, 0.5003, 0.7503), key=lambda share: abs(share - offset))
+        side = mesh.centers()[:, 0] > 30 * share
+        self.assertEqual(viewer.hexes(), int((taken & (side if viewer.pressed("#flip") else ~side)).sum()))
+        again = self.open(file, hash="#eye=-115,24,2,0,0,0&cut=x,1,0,0,0.1,0")
+        self.assertEqual(again.hexes(), int((taken & (mesh.centers()[:, 0] < 30 * 0.2503)).sum()), "an address stays at the slices too")
 
 
 def main():

@@ -2,17 +2,15 @@
 import {Orbit, steer} from './camera.js';
 import {colorFaces, makeColorings} from './coloring.js';
 import {findHex, patchOf} from './data.js';
+import {element} from './dom.js';
 import {Drawing} from './draw.js';
 import {bindKeys} from './keys.js';
 import {curveLines, groupOf, hexOutline, irregularLines, planeOutline} from './lines.js';
 import {Panel} from './panel.js';
 import {pickFace} from './pick.js';
 import {savePicture} from './picture.js';
-import {fromHash, initialState, toHash} from './state.js';
-import {collectFaces, cutPlane, findIrregularEdges, selectHexes} from './topology.js';
-
-const AXES = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
-const element = id => document.getElementById(id);
+import {AXES, fromHash, initialState, placeOfCut, toHash} from './state.js';
+import {collectFaces, cutPlane, findIrregularEdges, selectHexes, statePlane} from './topology.js';
 
 export class App {
   constructor(mesh) {
@@ -80,7 +78,7 @@ export class App {
   drawLines() {
     const {mesh, state, drawing} = this, none = [new Float32Array(), new Uint8Array()];
     const set = (lines, made) => drawing.setLines(lines, ...(made ? [made.segments, made.colors] : none));
-    set(drawing.plane, state.cut && planeOutline(mesh.frame, cutPlane(mesh, {...state.cut, offset: state.offset})));
+    set(drawing.plane, state.cut && planeOutline(mesh.frame, statePlane(mesh, state)));
     set(drawing.chosen, state.chosen && hexOutline(mesh, state.chosen.hex));
     set(drawing.irregular, state.irregular && irregularLines(mesh, this.irregularEdges(), this.valences));
   }
@@ -101,35 +99,29 @@ export class App {
 
   change(part, values) {
     Object.assign(this.state, values);
-    this.syncCut();
     this.refresh(part, 'panel');
-  }
-
-  /// The selection reads the cut alone.
-  syncCut() {
-    const {state} = this;
-    if (state.cut) Object.assign(state.cut, {offset: state.offset, flip: state.flip});
   }
 
   /// What lies towards the eye goes.
   setCut(kind) {
     if (kind === 'off') return this.change('hexes', {cut: null});
     const eye = this.orbit.direction().toArray(), normal = kind === 'view' ? eye : AXES[kind];
-    return this.change('hexes', {cut: {kind, normal}, flip: normal.reduce((sum, x, k) => sum + x * eye[k], 0) < -1e-9});
+    return this.change('hexes', {cut: {kind, normal}, offset: placeOfCut(this.mesh, kind, this.state.offset), flip: normal.reduce((sum, x, k) => sum + x * eye[k], 0) < -1e-9});
   }
 
-  /// A part of a mesh has whole slices at a few places only: a cut across an axis stays at these.
-  setOffset(offset) {
-    const {sample} = this.mesh.summary, {cut} = this.state;
-    let place = Math.min(1, Math.max(0, offset));
-    if (sample && cut && cut.kind !== 'view') place = sample.slices.reduce((best, s) => Math.abs(s - place) < Math.abs(best - place) ? s : best);
-    this.change('hexes', {offset: place});
-  }
+  setOffset(offset) { this.change('hexes', {offset: placeOfCut(this.mesh, this.state.cut?.kind, offset)}); }
   stepOffset(steps) {
     const {sample} = this.mesh.summary;
     if (!sample || this.state.cut?.kind === 'view') return this.setOffset(this.state.offset + 0.02 * steps);
     const at = sample.slices.indexOf(this.state.offset) + Math.sign(steps);
     return this.setOffset(sample.slices[Math.min(sample.slices.length - 1, Math.max(0, at))]);
+  }
+
+  /// Limits of the filter, in steps of 1/50; each takes the other along, for between them is a step. Below 0 are the inverted hexes alone.
+  setLow(low) { this.change('hexes', {low, high: Math.max(low + 1, this.state.high)}); }
+  setHigh(limit) {
+    const high = Math.min(50, Math.max(0, limit));
+    this.change('hexes', {high, low: Math.min(Math.max(0, high - 1), this.state.low)});
   }
 
   click(event) {
@@ -155,10 +147,10 @@ export class App {
     const {worst} = this.mesh.summary, {mesh, state, orbit} = this;
     const index = state.worst < 0 ? 0 : Math.min(worst.length - 1, Math.max(0, state.worst + step)), hex = findHex(mesh, worst[index].hex);
     const center = Array.from(mesh.centers.subarray(3 * hex, 3 * hex + 3)), normal = orbit.direction().toArray();
-    const plane = cutPlane(mesh, {normal, offset: 0}), along = center.reduce((sum, x, k) => sum + x * normal[k], 0);
+    const plane = cutPlane(mesh, normal, 0), along = center.reduce((sum, x, k) => sum + x * normal[k], 0);
     let size = 0;
     for (let k = 0; k < 8; ++k) for (let axis = 0; axis < 3; ++axis) size = Math.max(size, Math.abs(mesh.positions[3 * mesh.hexes[8 * hex + k] + axis] - center[axis]));
-    this.change('hexes', {cut: {kind: 'view', normal}, offset: (along - plane.low) / (plane.high - plane.low || 1) + 1e-4, flip: false, peel: 0, low: 0, high: 50, hiddenRegions: new Set(),
+    this.change('hexes', {cut: {kind: 'view', normal}, offset: Math.min(1, (along - plane.low) / (plane.high - plane.low || 1) + 1e-4), flip: false, peel: 0, low: 0, high: 50, hiddenRegions: new Set(),
       worst: index, chosen: {hex, face: -1}, chosenPatch: -1});
     orbit.fly(center, Math.max(0.02, 24 * size));
   }
@@ -180,7 +172,6 @@ export class App {
     if (this.linked && location.hash === this.linked) { this.linked = null; return; }
     const {state, eye} = fromHash(location.hash.slice(1), this.mesh, this.colorings.map(c => c.key));
     this.state = state;
-    this.syncCut();
     if (eye) this.orbit.restore(eye); else this.orbit.look('iso');
     this.refresh('hexes', 'lines');
   }
@@ -189,7 +180,7 @@ export class App {
 
   /// The point of the plane at the middle of the mesh, and how far it moves on the screen when its place moves by the mesh's extent.
   handlePlace() {
-    const {mesh, state, orbit, canvas} = this, plane = cutPlane(mesh, {...state.cut, offset: state.offset});
+    const {mesh, state, orbit, canvas} = this, plane = statePlane(mesh, state);
     const [w, h] = [canvas.clientWidth, canvas.clientHeight], point = plane.normal.map(x => x * plane.at), size = plane.high - plane.low || 1;
     const [x, y] = orbit.project(point, w, h), [u, v] = orbit.project(point.map((c, k) => c + plane.normal[k] * 0.01), w, h);
     return {x, y, along: [(u - x) / 0.01 * size, (v - y) / 0.01 * size]};

@@ -11,8 +11,7 @@ export function makeColorings(mesh) {
   list.push({key: 'quality', label: 'scaled Jacobian', ofHex: h => quality[mesh.quality[h]], legend: {color: qualityColor, low: '0', high: '1'}});
   if (summary.patches.length) list.push({key: 'patch', label: 'patch', ofFace: (h, lf) => { const p = patchOf(mesh, h, lf); return p < 0 ? NEUTRAL : categoryColor(p); }});
   if (summary.regions.length > 1) list.push({key: 'region', label: 'region', ofHex: h => categoryColor(regionOf(mesh, h))});
-  const deepest = mesh.depth.reduce((most, d) => d < 255 && d > most ? d : most, 0);
-  list.push({key: 'layer', label: 'layer from the boundary', ofHex: h => risingColor(1 - Math.min(1, mesh.depth[h] / Math.max(1, deepest))), legend: {color: x => risingColor(1 - x), low: '0', high: String(deepest)}});
+  list.push({key: 'layer', label: 'layer from the boundary', ofHex: h => risingColor(1 - Math.min(1, mesh.depth[h] / Math.max(1, mesh.deepest))), legend: {color: x => risingColor(1 - x), low: '0', high: String(mesh.deepest)}});
   if (mesh.distance) {
     const most = summary.distance.max;
     list.push({key: 'distance', label: 'distance to the surface', ofFace: (h, lf) => { const i = markedIndex(mesh, h, lf); return i < 0 ? NEUTRAL : risingColor(mesh.distance[i] / 255); },

@@ -34,7 +34,7 @@ function sumDeltas(codes, mask) {
 }
 
 const readNumbers = bytes => bytes && sumDeltas(joinPlanes(bytes, 4), -1);
-const readShorts = bytes => bytes && joinPlanes(bytes, 2);
+const readCodes = bytes => bytes && joinPlanes(bytes, 4);
 
 /// Positions in the drawing's frame: the box's centre at 0, its diagonal 1 long.
 function readPositions(bytes, frame) {
@@ -97,9 +97,10 @@ export async function readMesh() {
   const marked = await unpack('faces');
   const mesh = {
     summary, frame, positions, hexes, numHexes: hexes.length / 8, marked, firstMarked: countMarked(marked), centers: findCenters(positions, hexes),
-    quality: await unpack('quality'), depth: await unpack('depth'), patches: readShorts(await unpack('patches')), regions: readShorts(await unpack('regions')),
+    quality: await unpack('quality'), depth: await unpack('depth'), patches: readCodes(await unpack('patches')), regions: readCodes(await unpack('regions')),
     hexIds: readNumbers(await unpack('hex_ids')), vertIds: readNumbers(await unpack('vert_ids')), distance: await unpack('distance'),
     curves: readNumbers(await unpack('curves')), curveIds: readNumbers(await unpack('curve_ids')), corners: readNumbers(await unpack('corners')), fields: []};
+  mesh.deepest = mesh.depth.reduce((most, d) => d < 255 && d > most ? d : most, 0);  // 255: no boundary leads there
   for (let i = 0; i < summary.fields.length; ++i) mesh.fields.push(await unpack(`field_${i}`));
   const surfaceBytes = await unpack('surface_positions');
   if (surfaceBytes) mesh.surface = {positions: readPositions(surfaceBytes, frame), tris: readNumbers(await unpack('surface_tris'))};

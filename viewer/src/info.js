@@ -1,17 +1,13 @@
 // What is written about a hex or a patch.
 import {hexId, markedIndex, patchOf, regionOf, vertId} from './data.js';
-import {measure} from './panel.js';
+import {make} from './dom.js';
+import {count, measure} from './text.js';
 
-function make(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
 const terms = pairs => make('dl', {}, ...pairs.flatMap(([term, text]) => [make('dt', {textContent: term}), make('dd', {textContent: text})]));
 
 export function describePatch(mesh, patch) {
   const {name, quads, area} = mesh.summary.patches[patch];
-  return [make('h3', {textContent: name}), terms([['quads', quads.toLocaleString('en')], ['area', measure(area)]])];
+  return [make('h3', {textContent: name}), terms([['quads', count(quads)], ['area', measure(area)]])];
 }
 
 /// Quality to the width of its byte; hexes among the worst have it exactly, with exact corners.
@@ -28,11 +24,11 @@ export function describeHex(mesh, {chosen, worst}) {
   const patch = face >= 0 ? patchOf(mesh, hex, face) : -1;
   if (patch >= 0) {
     const {name, quads, area} = summary.patches[patch];
-    pairs.unshift(['patch', name], ['of it', `${quads.toLocaleString('en')} quads, area ${measure(area)}`]);
+    pairs.unshift(['patch', name], ['of it', `${count(quads)} quads, area ${measure(area)}`]);
   }
   const at = mesh.distance && face >= 0 ? markedIndex(mesh, hex, face) : -1;
   if (at >= 0) pairs.push(['distance', `about ${measure(mesh.distance[at] / 255 * summary.distance.max)}`]);
-  return [make('h3', {textContent: `hex ${id.toLocaleString('en')}`}), terms(pairs), cornerTable(mesh, hex, exact)];
+  return [make('h3', {textContent: `hex ${count(id)}`}), terms(pairs), cornerTable(mesh, hex, exact)];
 }
 
 function cornerTable(mesh, hex, exact) {

@@ -1,6 +1,5 @@
 // The keyboard: all that the panel's buttons do, and turning and moving.
-
-const element = id => document.getElementById(id);
+import {element, make} from './dom.js';
 
 /// Key, what it does as text, and what it does. Keys for the camera work when the drawing has the focus.
 const KEYS = [
@@ -33,8 +32,8 @@ const DRAWING_KEYS = [['arrows', 'turn; with Shift: move'], ['+ \u2212', 'zoom']
 const MORE = {
   x: app => app.setCut('x'), y: app => app.setCut('y'), z: app => app.setCut('z'),
   ',': app => app.stepOffset(-1), '.': app => app.stepOffset(1),
-  p: app => app.change('hexes', {peel: Math.min(app.panel.deepest, app.state.peel + 1)}), P: app => app.change('hexes', {peel: Math.max(0, app.state.peel - 1)}),
-  '[': app => app.change('hexes', {high: Math.max(0, app.state.high - 1)}), ']': app => app.change('hexes', {high: Math.min(50, app.state.high + 1)}),
+  p: app => app.change('hexes', {peel: Math.min(app.mesh.deepest, app.state.peel + 1)}), P: app => app.change('hexes', {peel: Math.max(0, app.state.peel - 1)}),
+  '[': app => app.setHigh(app.state.high - 1), ']': app => app.setHigh(app.state.high + 1),
   w: app => app.flyToWorst(1), W: app => app.flyToWorst(-1),
 };
 const LOOKS = {1: ['+x', '-x'], 2: ['+y', '-y'], 3: ['-z', '+z']};
@@ -52,7 +51,7 @@ function onDrawing(app, event) {
 export function bindKeys(app) {
   const list = document.querySelector('#keys dl');
   for (const [key, text] of [...DRAWING_KEYS, ...KEYS]) {
-    list.append(Object.assign(document.createElement('dt'), {textContent: key}), Object.assign(document.createElement('dd'), {textContent: text}));
+    list.append(make('dt', {textContent: key}), make('dd', {textContent: text}));
   }
   const actions = {...MORE};
   for (const [key, , action] of KEYS) if (action) actions[key] = action;

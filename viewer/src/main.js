@@ -18,6 +18,6 @@ async function start() {
 }
 
 start().catch(error => {
-  document.getElementById('status').textContent = `This page cannot be shown: ${error.message}`;
+  document.getElementById('status').textContent = `This page cannot be shown: ${error.message} (it needs a browser of 2023 or later with WebGL 2)`;
   throw error;
 });

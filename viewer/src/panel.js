@@ -1,16 +1,10 @@
 // The controls beside the drawing, and what is written over it.
 import {categoryColor, css, INVERTED, qualityColor, valenceColor} from './colors.js';
+import {element, make} from './dom.js';
 import {describeHex, describePatch} from './info.js';
-
-const element = id => document.getElementById(id);
-const count = number => number.toLocaleString('en');
-export const measure = number => number === 0 ? '0' : Math.abs(number) >= 1e5 || Math.abs(number) < 1e-3 ? number.toExponential(3) : String(+number.toPrecision(5));
-
-function make(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
+import {SWITCHES} from './state.js';
+import {count, measure} from './text.js';
+import {statePlane} from './topology.js';
 
 function swatch(color) {
   const made = make('span', {className: 'swatch'});
@@ -21,8 +15,6 @@ function swatch(color) {
 export class Panel {
   constructor(app) {
     this.app = app;
-    const {mesh} = app;
-    this.deepest = mesh.depth.reduce((most, d) => d < 255 && d > most ? d : most, 0);
     this.bins = this.countBins();
     this.writeHead();
     this.bindButtons();
@@ -82,18 +74,18 @@ export class Panel {
 
   bindSliders() {
     const {app} = this, number = id => Number(element(id).value);
-    element('peel').max = this.deepest;
+    element('peel').max = app.mesh.deepest;
     element('offset').addEventListener('input', () => app.setOffset(number('offset')));
     element('peel').addEventListener('input', () => app.change('hexes', {peel: number('peel')}));
-    element('low').addEventListener('input', () => app.change('hexes', {low: number('low'), high: Math.max(number('low') + 1, app.state.high)}));
+    element('low').addEventListener('input', () => app.setLow(number('low')));
     element('low').max = 49;
-    element('high').addEventListener('input', () => app.change('hexes', {high: number('high'), low: Math.min(Math.max(0, number('high') - 1), app.state.low)}));
+    element('high').addEventListener('input', () => app.setHigh(number('high')));
     element('opacity').addEventListener('input', () => app.change('frame', {opacity: number('opacity')}));
   }
 
   bindSwitches() {
     const {app} = this, {summary, surface} = app.mesh, redo = {pale: 'colors', irregular: 'lines'};
-    for (const id of ['faces', 'edges', 'pale', 'curves', 'corners', 'irregular', 'surface'])
+    for (const id of SWITCHES)
       element(id).addEventListener('change', () => app.change(redo[id] ?? 'frame', {[id]: element(id).checked}));
     const {curves, corners} = summary, edges = curves.reduce((sum, c) => sum + c.edges, 0);
     element('curves-label').hidden = !edges;
@@ -178,14 +170,14 @@ export class Panel {
     element('offset').disabled = element('flip').disabled = !state.cut;
     element('offset-value').textContent = this.describeOffset();
     element('peel').value = state.peel;
-    element('peel-value').textContent = state.peel ? `${state.peel} of ${this.deepest}` : 'none';
+    element('peel-value').textContent = state.peel ? `${state.peel} of ${mesh.deepest}` : 'none';
     element('low').value = state.low;
     element('low-value').textContent = state.low ? (state.low / 50).toFixed(2) : 'inverted';
     element('high').value = state.high;
     element('high-value').textContent = state.high === 50 ? 'all' : state.high ? (state.high / 50).toFixed(2) : '0';
     element('color').value = app.coloring().key;
-    for (const id of ['faces', 'edges', 'pale', 'curves', 'corners', 'irregular', 'surface']) element(id).checked = state[id];
-    element('opacity-label').hidden = !state.surface;
+    for (const id of SWITCHES) element(id).checked = state[id];
+    element('opacity-label').hidden = !state.surface || !mesh.surface;
     element('opacity').value = state.opacity;
     element('opacity-label').querySelector('output').textContent = `${Math.round(100 * state.opacity)}%`;
     [...element('regions').children].forEach((entry, i) => { entry.querySelector('input').checked = !state.hiddenRegions.has(i); });
@@ -205,8 +197,7 @@ export class Panel {
     if (!state.cut) return '';
     const axis = 'xyz'.indexOf(state.cut.kind);
     if (axis < 0) return `${(100 * state.offset).toFixed(1)}%`;
-    const low = mesh.extremes?.low ?? 0, high = mesh.extremes?.high ?? 0;
-    return measure(mesh.frame.center[axis] + (low + state.offset * (high - low)) * mesh.frame.diagonal);
+    return measure(mesh.frame.center[axis] + statePlane(mesh, state).at * mesh.frame.diagonal);
   }
 
   followChoice() {

@@ -1,5 +1,5 @@
 // The view as a PNG: the drawing over the page's background, with what it shows written below.
-const element = id => document.getElementById(id);
+import {element} from './dom.js';
 
 export function savePicture(app) {
   app.work();  // in the same task as reading: a canvas forgets its pixels afterwards

@@ -1,11 +1,18 @@
 // What can be chosen about a view, and its form as the end of an address.
 
+export const AXES = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
+export const SWITCHES = ['faces', 'edges', 'pale', 'curves', 'corners', 'irregular', 'surface'];
+
 export function initialState(mesh) {
   return {cut: null, offset: mesh.summary.sample ? mesh.summary.sample.slices[1] : 0.503, flip: false, peel: 0, low: 0, high: 50, color: 'quality', hiddenRegions: new Set(), hiddenPatches: new Set(),
     faces: true, edges: true, pale: true, curves: true, corners: true, irregular: false, surface: false, opacity: 0.4, chosen: null, chosenPatch: -1, worst: -1};
 }
 
-const SWITCHES = ['faces', 'edges', 'pale', 'curves', 'corners', 'irregular', 'surface'];
+/// Where a cut may stand. A part of a mesh has whole slices at a few places only: a cut across an axis stays at these.
+export function placeOfCut(mesh, kind, offset) {
+  const {sample} = mesh.summary, place = Math.min(1, Math.max(0, offset));
+  return sample && kind !== 'view' ? sample.slices.reduce((best, s) => Math.abs(s - place) < Math.abs(best - place) ? s : best) : place;
+}
 
 /// Only what differs from the start is written.
 export function toHash(state, orbit, start) {
@@ -33,14 +40,14 @@ export function fromHash(text, mesh, colors) {
   };
   const whole = (value, low, high) => Number.isInteger(value) && value >= low && value <= high;
   const [kind, ...cut] = (parts.get('cut') ?? '').split(',');
-  if (['x', 'y', 'z', 'view'].includes(kind) && cut.length === 5 && cut.map(Number).every(Number.isFinite)) {
+  if ((Object.hasOwn(AXES, kind) || kind === 'view') && cut.length === 5 && cut.map(Number).every(Number.isFinite)) {
     const [x, y, z, offset, flip] = cut.map(Number), length = Math.hypot(x, y, z), scale = Math.abs(length - 1) < 1e-12 || length === 0 ? 1 : 1 / length;
-    state.cut = {kind, normal: [x * scale, y * scale, z * scale]};
-    Object.assign(state, {offset, flip: flip === 1});
+    state.cut = {kind, normal: AXES[kind] ?? [x * scale, y * scale, z * scale]};
+    Object.assign(state, {offset: placeOfCut(mesh, kind, offset), flip: flip === 1});
   }
   const peel = Number(parts.get('peel')), quality = numbers('quality', 2), hex = numbers('hex', 2);
-  if (whole(peel, 0, 255)) state.peel = peel;
-  if (quality?.every(x => whole(x, 0, 50))) [state.low, state.high] = quality;
+  if (whole(peel, 0, mesh.deepest)) state.peel = peel;
+  if (quality?.every(x => whole(x, 0, 50)) && quality[0] < Math.max(1, quality[1])) [state.low, state.high] = quality;
   if (colors.includes(parts.get('color'))) state.color = parts.get('color');
   state.hiddenRegions = new Set(numbers('regions') ?? []);
   state.hiddenPatches = new Set(numbers('patches') ?? []);

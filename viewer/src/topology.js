@@ -78,7 +78,7 @@ const EDGE_FACES = EDGES.map(([a, b]) => FACES.flatMap((f, lf) => f.includes(a) 
 export function selectHexes(mesh, state) {
   const n = mesh.numHexes, kept = new Uint8Array(n);
   const lowest = state.low === 0 ? 0 : 5 * state.low + 1, highest = 5 * state.high;
-  const plane = state.cut && cutPlane(mesh, state.cut), sign = state.cut?.flip ? -1 : 1;
+  const plane = state.cut && statePlane(mesh, state), sign = state.flip ? -1 : 1;
   const hidden = mesh.summary.regions.map((_, i) => state.hiddenRegions.has(i));
   let count = 0;
   for (let h = 0; h < n; ++h) {
@@ -95,7 +95,7 @@ export function selectHexes(mesh, state) {
 }
 
 /// A cut's plane, its place measured between the mesh's extremes along the normal: points p with normal . p = at.
-export function cutPlane(mesh, {normal, offset}) {
+export function cutPlane(mesh, normal, offset) {
   const key = normal.join();
   if (mesh.extremes?.key !== key) {
     let low = Infinity, high = -Infinity;
@@ -110,6 +110,8 @@ export function cutPlane(mesh, {normal, offset}) {
   const {low, high} = mesh.extremes;
   return {normal, low, high, at: low + offset * (high - low)};
 }
+
+export const statePlane = (mesh, {cut, offset}) => cutPlane(mesh, cut.normal, offset);
 
 /// Faces of kept hexes that no other kept one covers, as 8 hex + local face; those of hidden patches are left out.
 export function collectFaces(mesh, kept, hiddenPatches) {

@@ -18,12 +18,12 @@ struct Similarity {
   int exponent = 0;
   Rotation pose = {};
 
-  /// Length in the world of one unit; zero or infinity when it leaves the range of doubles.
-  double scale() const { return std::ldexp(1.0, exponent); }
   Vec3 to_unit(const Vec3& p) const { return pose.apply(scaled(p - center, -exponent)); }
   Vec3 to_world(const Vec3& p) const { return scaled(pose.apply_inverse(p), exponent) + center; }
+  /// Zero or infinity when they leave the range of doubles.
   double length_to_unit(double length) const { return std::ldexp(length, -exponent); }
   double length_to_world(double length) const { return std::ldexp(length, exponent); }
+  double volume_to_world(double volume) const { return std::ldexp(volume, 3 * exponent); }
 
  private:
   static Vec3 scaled(const Vec3& p, int e) {

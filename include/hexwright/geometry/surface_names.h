@@ -20,6 +20,7 @@ std::string name_of_body(const TriMesh& surface);
 IdVector<CurveId, std::string> name_curves(const TriMesh& surface, const FeatureGraph& features);
 
 /// Numbers names that come more than once: "wall", "wall", "" becomes "wall.1", "wall.2", "".
+/// Numbers that make a name that is there already are passed over.
 void number_repeated(std::vector<std::string>& names);
 
 }  // namespace hexwright

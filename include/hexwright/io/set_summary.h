@@ -29,8 +29,8 @@ struct SetSummary {
 std::vector<SetSummary> summarize_sets(const HexMesh& mesh, const SetTable& table);
 
 /// Calls patches without a name by their place where that is plain: patch_xmin, patch_zmax for a
-/// plane side of the bounding box, patch_cyl_r5 for a cylinder of radius 5. A name that two patches
-/// would get says nothing: both keep their numbers.
+/// plane side of the bounding box, patch_cyl_r2_5 for a cylinder of radius 2.5. A name that two
+/// patches would get says nothing: both keep their numbers.
 void name_by_place(const HexMesh& mesh, SetTable& table);
 
 /// One object per set: kind, name, elements, measure, centroid, and normal or axis and radius.

@@ -43,8 +43,17 @@ SetTable make_set_table(const HexMesh& mesh);
 /// The name of a set that has none of its own.
 std::string default_set_name(SetKind kind, std::int32_t number);
 
+/// Whether a group unites this patch with others.
+bool is_in_group(const NamedSet& patch, const NamedSet& group);
+/// The name of a region, patch or curve: the mesh's own, or else the default one.
+std::string set_name(const HexMesh& mesh, SetKind kind, std::int32_t number);
+
 /// The vertices of a set's elements, increasing, each once.
 std::vector<VertId> set_nodes(const HexMesh& mesh, const NamedSet& set);
+
+/// The faces of hexes that have these vertices, in (hex, lf) order: two for a quad inside the mesh.
+std::vector<HexFace> find_quad_faces(const HexMesh& mesh, const VertToHex& vert_to_hex,
+                                     const std::array<VertId, 4>& quad);
 
 /// The hex and local face of every labelled quad: the first in (hex, lf) order for an inner one.
 /// Throws Error{BadArgument} for a quad that is no face of any hex.

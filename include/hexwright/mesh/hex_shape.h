@@ -1,5 +1,5 @@
-// The scaled Jacobian of a hex and of its corners: the one definition that every module measures
-// by. (relax/vertex_newton.h evaluates the same for four corners at a time.)
+// The scaled Jacobian of a hex and of its corners, and its volume: the one definition that every
+// module measures by. (relax/vertex_newton.h evaluates the same for four corners at a time.)
 //
 // Based on: Stimpson, Ernst, Knupp, Pebay, Thompson, "The Verdict Geometric Quality Library",
 // SAND2007-1751, section 6.10. Differs: the 8 corners count, without Verdict's ninth frame at the
@@ -42,5 +42,8 @@ inline double corner_scaled_jacobian(const std::array<Vec3, 8>& p, int lv) {
 
 /// Least scaled Jacobian over the 8 corners, in [-1, 1]; -1 when an edge has no length.
 double scaled_jacobian(const std::array<Vec3, 8>& p);
+
+/// Volume by the divergence theorem with bilinear faces.
+double hex_volume(const std::array<Vec3, 8>& p);
 
 }  // namespace hexwright

@@ -24,7 +24,7 @@ struct NamedShare {
 struct SurfaceInspection {
   std::size_t num_verts = 0, num_tris = 0;  ///< as read
   Box3 box;
-  double area = 0;
+  double area = 0;                ///< with the patches that close its holes
   double volume = 0;              ///< of the object that would be meshed
   std::size_t num_solids = 0;     ///< closed pieces, consistently oriented
   std::size_t num_cavities = 0;   ///< closed pieces that point inwards

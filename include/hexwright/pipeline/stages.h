@@ -10,8 +10,8 @@
 namespace hexwright {
 
 /// The adaptive grid that mesh_surface() would start from, with the lattice along the given axes.
-/// Of the options, `sizing` and `target.features` count. Errors: those of prepare_surface and
-/// build_grid.
+/// Of the options, `sizing` and `target` count, but for its placement. Errors: those of
+/// prepare_surface and build_grid.
 SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
                           const Context& context);
 

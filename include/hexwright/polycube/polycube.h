@@ -74,7 +74,7 @@ struct PolycubeResult {
   Grid grid;        ///< on the polycube's integer lattice
   TriMesh surface;  ///< the object's boundary
   PolycubeReport report;
-  /// Against that boundary. Its features are the map's own curves, and not the boundary's creases.
+  /// Against that boundary, whose creases do not count: the mesh follows the map's own curves.
   Verdict verdict;
 
   void to_world(const Similarity& frame);

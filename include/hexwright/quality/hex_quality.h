@@ -30,16 +30,11 @@ struct QualitySummary {
   std::size_t num_undecided = 0;
   double total_volume = 0;
 
-  void to_world(const Similarity& frame) {
-    total_volume *= frame.scale() * frame.scale() * frame.scale();
-  }
+  void to_world(const Similarity& frame) { total_volume = frame.volume_to_world(total_volume); }
 };
 QualitySummary summarize_quality(const HexMesh& mesh);
 
 /// Scaled Jacobian of each hex.
 IdVector<HexId, double> compute_scaled_jacobians(const HexMesh& mesh);
-
-/// Volume by the divergence theorem with bilinear faces.
-double hex_volume(const std::array<Vec3, 8>& p);
 
 }  // namespace hexwright

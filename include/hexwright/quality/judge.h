@@ -76,6 +76,8 @@ struct Verdict {
   /// the surface is closed, manifold and oriented, and the mesh's whole boundary stands for it.
   std::optional<double> volume_error;
   std::optional<SurfaceTopology> surface;  ///< to compare the mesh's components and genus with
+  /// Components or genus of the boundary are not the surface's, though it stands for all of it.
+  bool has_other_topology = false;
   std::vector<std::string>
       failures;  ///< why it is not valid, one sentence each; warnings are not here
   std::vector<std::string> warnings;

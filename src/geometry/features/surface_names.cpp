@@ -46,7 +46,8 @@ void number_repeated(std::vector<std::string>& names) {
   for (std::string& name : names)
     if (!name.empty() && count[name] > 1) {
       const std::string base = name;
-      name = fmt::format("{}.{}", base, ++next[base]);
+      do name = fmt::format("{}.{}", base, ++next[base]);
+      while (count.contains(name));  // another group is called so
     }
 }
 

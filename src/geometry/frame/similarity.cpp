@@ -2,10 +2,21 @@
 #include "hexwright/geometry/similarity.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "hexwright/base/parallel.h"
 
 namespace hexwright {
+namespace {
+
+template <class Mesh, class Map>
+Mesh mapped(Mesh mesh, Map&& map) {
+  auto& positions = mesh.positions.raw();
+  parallel_for(positions.size(), [&](std::size_t i) { positions[i] = map(positions[i]); });
+  return mesh;
+}
+
+}  // namespace
 
 Similarity compute_unit_frame(const Box3& box) {
   Similarity frame;
@@ -25,29 +36,19 @@ Similarity compute_unit_frame(const TriMesh& surface) {
 }
 
 TriMesh to_unit(TriMesh surface, const Similarity& frame) {
-  for (Vec3& p : surface.positions) p = frame.to_unit(p);
-  return surface;
+  return mapped(std::move(surface), [&](const Vec3& p) { return frame.to_unit(p); });
 }
 
 HexMesh to_unit(HexMesh mesh, const Similarity& frame) {
-  parallel_for(mesh.num_verts(), [&](std::size_t i) {
-    Vec3& p = mesh.positions[VertId(i)];
-    p = frame.to_unit(p);
-  });
-  return mesh;
+  return mapped(std::move(mesh), [&](const Vec3& p) { return frame.to_unit(p); });
 }
 
 TriMesh to_world(TriMesh surface, const Similarity& frame) {
-  for (Vec3& p : surface.positions) p = frame.to_world(p);
-  return surface;
+  return mapped(std::move(surface), [&](const Vec3& p) { return frame.to_world(p); });
 }
 
 HexMesh to_world(HexMesh mesh, const Similarity& frame) {
-  parallel_for(mesh.num_verts(), [&](std::size_t i) {
-    Vec3& p = mesh.positions[VertId(i)];
-    p = frame.to_world(p);
-  });
-  return mesh;
+  return mapped(std::move(mesh), [&](const Vec3& p) { return frame.to_world(p); });
 }
 
 }  // namespace hexwright

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "geometry/prepare/surface_edges.h"
-#include "geometry/prepare/surface_orient.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -171,7 +171,7 @@ UnionFind find_fans(const TriMesh& surface, const SidePairs& pairs) {
 
 void measure(ClosedPiece& piece) {
   piece.box = bounding_box(piece.mesh);
-  piece.volume6 = signed_volume6(piece.mesh);
+  piece.volume = enclosed_volume(piece.mesh);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct ClosedPiece {
   std::vector<TriId> tri_to_surface;
   std::vector<VertId> vert_to_surface;
   Box3 box;
-  double volume6 = 0;  ///< six times the volume; negative: its normals point inwards
+  double volume = 0;  ///< negative: its normals point inwards
 };
 
 /// Numbers the pieces by their first triangles. Triangles with an open side, or with neighbours of

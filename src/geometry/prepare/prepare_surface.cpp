@@ -8,10 +8,12 @@
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 
+#include "base/words.h"
 #include "geometry/prepare/canonical_order.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/surface_groups.h"
 #include "geometry/prepare/surface_orient.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -24,10 +26,6 @@ constexpr double kClearlyInside = 0.55;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw Error(ErrorCode::BadGeometry, message);
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 void check_input(const TriMesh& input) {
@@ -132,22 +130,8 @@ bool encloses_something(const TriMesh& mesh) {
 }
 
 void check_volume(const TriMesh& mesh) {
-  double area2 = 0;
-  for (TriId t : mesh.tris.ids()) {
-    const auto c = mesh.corners(t);
-    area2 += norm(cross(c[1] - c[0], c[2] - c[0]));
-  }
-  if (signed_volume6(mesh) <= kLeastVolume * area2 * bounding_box(mesh).diagonal())
+  if (enclosed_volume(mesh) <= kLeastVolume * total_area(mesh) * bounding_box(mesh).diagonal())
     refuse_no_volume("its two sides coincide");
-}
-
-double area(const TriMesh& mesh, std::size_t begin, std::size_t end) {
-  double sum = 0;
-  for (std::size_t t = begin; t < end; ++t) {
-    const auto c = mesh.corners(TriId(t));
-    sum += norm(cross(c[1] - c[0], c[2] - c[0])) / 2;
-  }
-  return sum;
 }
 
 /// Closes the holes of a surface that is nearly closed. What is far from closed has no inside that
@@ -156,13 +140,12 @@ void close_holes(WorkingSurface& work, SurfaceDiagnosis& diagnosis) {
   judge_openness(work.mesh, diagnosis);
   if (diagnosis.num_boundary_edges == 0) return;
   if (!encloses_something(work.mesh)) refuse_no_volume("it is too open to have an inside");
-  const std::size_t num_before = work.mesh.num_tris();
+  const double given = total_area(work.mesh);
   diagnosis.num_filled_holes = fill_holes(work);
   // A sheet's hull is its patch over again: what that encloses is not meant as a solid. A half
   // sphere has a patch of half its area.
   constexpr double kPatchOfSheet = 0.7;
-  const double given = area(work.mesh, 0, num_before);
-  if (area(work.mesh, num_before, work.mesh.num_tris()) > kPatchOfSheet * given)
+  if (total_area(work.mesh) - given > kPatchOfSheet * given)
     refuse_no_volume(
         "it is an open sheet: to close it would take a patch nearly as large as itself");
 }
@@ -243,6 +226,11 @@ void describe_union(const UniteReport& united, SurfaceDiagnosis& diagnosis) {
   if (united.num_apart > 0)
     diagnosis.notes.push_back(std::to_string(united.num_apart) +
                               " parts that touch along edges or in points kept apart there");
+  if (united.num_failed > 0)
+    diagnosis.warnings.push_back(
+        std::to_string(united.num_failed) +
+        " parts that overlap or touch could not be united; inside is decided by the winding "
+        "number: unite them in the program that made them if the mesh is wrong there");
 }
 
 /// Solids that are left out one by one, the first few with their places; voids by number.

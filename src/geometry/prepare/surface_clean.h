@@ -48,6 +48,7 @@ struct UniteReport {
   std::size_t num_parts = 0;    ///< solids that were united with another
   std::size_t num_results = 0;  ///< what they became
   std::size_t num_apart = 0;    ///< solids that touch along edges or in points, and stay as many
+  std::size_t num_failed = 0;   ///< solids that stay as they are: their union could not be made
 };
 
 /// Puts the surface of their union in the place of solids that overlap or touch. A solid is a
@@ -58,8 +59,7 @@ UniteReport unite_parts(WorkingSurface& surface, Parts parts,
 
 /// A part that is too small to be meant, or to be meshed.
 struct SmallPart {
-  Box3 box;  ///< in the unit frame
-  std::size_t num_tris = 0;
+  Box3 box;              ///< in the unit frame
   bool is_void = false;  ///< a hole inside the solid
 };
 

@@ -10,6 +10,7 @@
 
 #include "geometry/prepare/surface_edges.h"
 #include "geometry/tree/triangle_math.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -25,7 +26,7 @@ struct Part {
   Box3 box;
   bool is_closed = true;
   bool was_repaired = false;
-  double volume6 = 0;
+  double volume = 0;
   std::vector<int> containers;  // closed parts around this one
 };
 
@@ -132,7 +133,7 @@ std::vector<Part> split_parts(const TriMesh& mesh, const SurfaceEdges& edges,
       part.mesh.tris.push_back(tri);
     }
     part.box = bounding_box(part.mesh);
-    part.volume6 = signed_volume6(part.mesh);
+    part.volume = enclosed_volume(part.mesh);
   }
   return parts;
 }
@@ -193,7 +194,7 @@ std::vector<char> choose_turns(const std::vector<Part>& parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {  // outermost first: they decide for the rest
     const Part& part = parts[i];
     if (!part.containers.empty()) continue;
-    turns[i] = part.is_closed ? part.volume6 < 0 : outward_score(part) < kInwardScore;
+    turns[i] = part.is_closed ? part.volume < 0 : outward_score(part) < kInwardScore;
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
@@ -205,22 +206,12 @@ std::vector<char> choose_turns(const std::vector<Part>& parts) {
     }
     // A repaired part has no trustworthy orientation of its own: shells alternate.
     if (part.is_closed && part.was_repaired && !part.containers.empty())
-      turns[i] = (part.volume6 > 0) == (part.containers.size() % 2 == 1);
+      turns[i] = (part.volume > 0) == (part.containers.size() % 2 == 1);
   }
   return turns;
 }
 
 }  // namespace
-
-double signed_volume6(const TriMesh& mesh) {
-  const Vec3 origin = mesh.num_tris() ? mesh.corners(TriId(0))[0] : Vec3{};
-  double sum = 0;
-  for (TriId t : mesh.tris.ids()) {
-    const auto c = mesh.corners(t);
-    sum += det(c[0] - origin, c[1] - origin, c[2] - origin);
-  }
-  return sum;
-}
 
 Orientation orient_surface(TriMesh& mesh, const Context& context) {
   const SurfaceEdges edges = compute_surface_edges(mesh);

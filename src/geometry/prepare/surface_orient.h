@@ -18,7 +18,4 @@ struct Orientation {
 /// around it, and that one is made to point outwards; so cavities stay cavities.
 Orientation orient_surface(TriMesh& mesh, const Context& context);
 
-/// Six times the volume enclosed, positive when normals point outwards.
-double signed_volume6(const TriMesh& mesh);
-
 }  // namespace hexwright

@@ -14,7 +14,6 @@ constexpr double kNoThickness = 1e-7;
 struct Component {
   Box3 box;
   Vec3 origin;  // of the volume's summands: near, lest they cancel
-  std::size_t num_tris = 0;
   double area2 = 0, volume6 = 0;
   bool is_closed = true;
 
@@ -31,9 +30,8 @@ std::vector<Component> measure_components(const TriMesh& mesh,
     if (i >= components.size()) components.resize(i + 1);
     Component& c = components[i];
     const auto p = mesh.corners(t);
-    if (c.num_tris == 0) c.origin = p[0];
+    if (c.box.is_empty()) c.origin = p[0];
     for (const Vec3& corner : p) c.box.extend(corner);
-    ++c.num_tris;
     c.area2 += norm(cross(p[1] - p[0], p[2] - p[0]));
     c.volume6 += det(p[0] - c.origin, p[1] - c.origin, p[2] - c.origin);
   }
@@ -59,7 +57,7 @@ std::vector<SmallPart> drop_small_parts(WorkingSurface& surface, double least) {
   bool has_flat = false;
   for (const Component& c : components) {
     has_flat = has_flat || c.is_flat();
-    if (is_small(c) && !c.is_flat()) dropped.push_back({c.box, c.num_tris, c.volume6 < 0});
+    if (is_small(c) && !c.is_flat()) dropped.push_back({c.box, c.volume6 < 0});
   }
   if (dropped.empty() && !has_flat) return {};
   std::vector<char> is_kept;

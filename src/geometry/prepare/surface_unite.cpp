@@ -1,7 +1,7 @@
 // Solids that overlap or touch become the surface of their union: hidden walls are no surface of
 // the object, and the curves in which parts meet are its edges.
 #include <algorithm>
-#include <numeric>
+#include <optional>
 
 #include "hexwright/geometry/surface_tree.h"
 
@@ -10,6 +10,7 @@
 #include "geometry/prepare/unite_solids.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "geometry/tree/triangle_math.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -20,11 +21,7 @@ constexpr double kContact = 1e-6;
 constexpr double kTolerance = 1e-9;
 
 void append(ClosedPiece& body, const ClosedPiece& cavity) {
-  const std::size_t base = body.mesh.num_verts();
-  for (const Vec3& p : cavity.mesh.positions) body.mesh.positions.push_back(p);
-  for (const auto& t : cavity.mesh.tris)
-    body.mesh.tris.push_back(
-        {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
+  append(body.mesh, cavity.mesh);
   body.tri_to_surface.insert(body.tri_to_surface.end(), cavity.tri_to_surface.begin(),
                              cavity.tri_to_surface.end());
   body.vert_to_surface.insert(body.vert_to_surface.end(), cavity.vert_to_surface.begin(),
@@ -35,28 +32,42 @@ bool holds(const Box3& outer, const Box3& inner) {
   return outer.contains(inner.lo) && outer.contains(inner.hi);
 }
 
-/// The smallest of the solids around a cavity, or -1.
-int find_owner(const std::vector<ClosedPiece>& solids, const ClosedPiece& cavity) {
-  const auto c = cavity.mesh.corners(TriId(0));
-  const Vec3 point = (c[0] + c[1] + c[2]) / 3;
-  int owner = -1;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (!holds(solids[i].box, cavity.box)) continue;
-    if (owner >= 0 && solids[i].volume6 >= solids[static_cast<std::size_t>(owner)].volume6)
-      continue;
-    if (SurfaceTree(solids[i].mesh).is_inside(point)) owner = static_cast<int>(i);
+/// Finds the solid that a cavity is in. Trees are made when asked for, once: a solid may have
+/// thousands of cavities, and most have none.
+class OwnerFinder {
+ public:
+  explicit OwnerFinder(const std::vector<ClosedPiece>& solids)
+      : solids_(solids), trees_(solids.size()) {}
+
+  /// The smallest of the solids around a cavity, or -1.
+  int find(const ClosedPiece& cavity) {
+    const auto c = cavity.mesh.corners(TriId(0));
+    const Vec3 point = (c[0] + c[1] + c[2]) / 3;
+    int owner = -1;
+    for (std::size_t i = 0; i < solids_.size(); ++i) {
+      if (!holds(solids_[i].box, cavity.box)) continue;
+      if (owner >= 0 && solids_[i].volume >= solids_[static_cast<std::size_t>(owner)].volume)
+        continue;
+      if (!trees_[i]) trees_[i].emplace(solids_[i].mesh);
+      if (trees_[i]->is_inside(point)) owner = static_cast<int>(i);
+    }
+    return owner;
   }
-  return owner;
-}
+
+ private:
+  const std::vector<ClosedPiece>& solids_;
+  std::vector<std::optional<SurfaceTree>> trees_;
+};
 
 /// Solids with their cavities.
 std::vector<ClosedPiece> find_bodies(const TriMesh& surface) {
   std::vector<ClosedPiece> solids, cavities;
   for (ClosedPiece& piece : split_closed_pieces(surface))
-    (piece.volume6 > 0 ? solids : cavities).push_back(std::move(piece));
+    (piece.volume > 0 ? solids : cavities).push_back(std::move(piece));
   if (solids.size() < 2) return {};
+  OwnerFinder finder(solids);
   std::vector<int> owners;
-  for (const ClosedPiece& cavity : cavities) owners.push_back(find_owner(solids, cavity));
+  for (const ClosedPiece& cavity : cavities) owners.push_back(finder.find(cavity));
   for (std::size_t i = 0; i < cavities.size(); ++i)
     if (owners[i] >= 0) append(solids[static_cast<std::size_t>(owners[i])], cavities[i]);
   return solids;
@@ -71,13 +82,8 @@ struct Assembly {
 Assembly assemble(const std::vector<ClosedPiece>& bodies) {
   Assembly all;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const std::size_t base = all.mesh.num_verts();
-    for (const Vec3& p : bodies[b].mesh.positions) all.mesh.positions.push_back(p);
-    for (const auto& t : bodies[b].mesh.tris) {
-      all.mesh.tris.push_back(
-          {VertId(base + t[0].index()), VertId(base + t[1].index()), VertId(base + t[2].index())});
-      all.tri_to_body.push_back(static_cast<int>(b));
-    }
+    append(all.mesh, bodies[b].mesh);
+    all.tri_to_body.resize(all.mesh.num_tris(), static_cast<int>(b));
   }
   return all;
 }
@@ -199,11 +205,14 @@ UniteReport unite_parts(WorkingSurface& surface, Parts parts,
     for (std::size_t b : cluster)
       solids.push_back({bodies[b].mesh, find_faces(bodies[b], surface, groups)});
     const UnitedSurface united = unite_solids(solids, kTolerance);
-    if (united.mesh.num_tris() == 0) continue;
+    if (united.mesh.num_tris() == 0) {
+      report.num_failed += cluster.size();
+      continue;
+    }
     replace(surface, bodies, cluster, united, is_kept);
     std::size_t num_results = 0;
     for (const ClosedPiece& piece : split_closed_pieces(united.mesh))
-      num_results += piece.volume6 > 0;
+      num_results += piece.volume > 0;
     if (num_results >= cluster.size()) {
       report.num_apart += cluster.size();
       continue;

@@ -15,6 +15,7 @@
 
 #include "io/mesh/foreign_labels.h"
 #include "io/mesh/set_names.h"
+#include "io/sets/face_table.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
@@ -75,11 +76,35 @@ Keyword parse_keyword(std::string_view line) {
   return keyword;
 }
 
-/// A set as it is spelled, with what it holds, in the order of the file.
+/// A set as it is spelled, with what it holds, in the order of the file: numbers, and the names of
+/// other sets in capitals.
 struct AbaqusSet {
   std::string name;
   std::vector<std::int64_t> ids;
+  std::vector<std::string> others;
 };
+using AbaqusSets = std::map<std::string, AbaqusSet>;  // by the name in capitals
+
+/// All that a set holds, itself and through the sets that it names, each of these once: sets that
+/// name each other do not multiply.
+std::vector<std::int64_t> ids_of(const AbaqusSets& sets, const std::string& key) {
+  std::vector<std::int64_t> ids;
+  std::vector<std::string> keys = {key};
+  std::set<std::string> seen = {key};
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto set = sets.find(keys[k]);
+    if (set == sets.end()) continue;
+    ids.insert(ids.end(), set->second.ids.begin(), set->second.ids.end());
+    for (const std::string& other : set->second.others)
+      if (seen.insert(other).second) keys.push_back(other);
+  }
+  return ids;
+}
+
+bool is_number(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 struct AbaqusSurface {
   std::string name;
   std::vector<std::pair<std::string, int>> sides;  ///< element or element set, and local face
@@ -215,35 +240,31 @@ class AbaqusReader {
         fail("element " + std::to_string(element_[0]) + " comes twice; export the file again");
       file_.hexes.push_back(first_verts<8>());
       if (const std::string set = keyword_.get("ELSET"); !set.empty()) {
-        add_to_set(set, {element_[0]}, element_sets_);
+        set_of(set, element_sets_).ids.push_back(element_[0]);
         named_by_element_.insert(upper(set));
       }
     }
     element_.clear();
   }
 
-  using Sets = std::map<std::string, AbaqusSet>;
-
-  static void add_to_set(const std::string& name, const std::vector<std::int64_t>& ids,
-                         Sets& sets) {
+  static AbaqusSet& set_of(const std::string& name, AbaqusSets& sets) {
     AbaqusSet& set = sets[upper(name)];
     if (set.name.empty()) set.name = name;
-    set.ids.insert(set.ids.end(), ids.begin(), ids.end());
+    return set;
   }
 
-  /// Ids, names of other sets above, or "first, last, step".
-  void read_set(std::string_view line, const std::string& name, Sets& sets) {
+  /// Ids, names of other sets, or "first, last, step".
+  void read_set(std::string_view line, const std::string& name, AbaqusSets& sets) {
+    AbaqusSet& set = set_of(name, sets);
     std::vector<std::int64_t> ids;
     for (std::string_view word : split(line)) {
-      if (word.empty()) continue;
-      const bool is_id = word.find_first_not_of("0123456789") == std::string_view::npos;
-      if (is_id)
+      if (is_number(word))
         ids.push_back(integer(word, "a member of the set"));
-      else if (const auto other = sets.find(upper(word)); other != sets.end())
-        ids.insert(ids.end(), other->second.ids.begin(), other->second.ids.end());
+      else if (!word.empty())
+        set.others.push_back(upper(word));
     }
     if (keyword_.parameters.contains("GENERATE")) ids = generate(ids);
-    add_to_set(name, ids, sets);
+    set.ids.insert(set.ids.end(), ids.begin(), ids.end());
   }
 
   /// Of the numbers that exist; a short line must not make a long loop.
@@ -288,7 +309,7 @@ class AbaqusReader {
       const auto tag = static_cast<std::int64_t>(set_to_tag.size()) + 1;
       set_to_tag[key] = tag;
       tags[tag] = set->second.name;
-      for (std::int64_t id : set->second.ids)
+      for (std::int64_t id : ids_of(element_sets_, key))
         if (const auto hex = element_to_hex_.find(id); hex != element_to_hex_.end())
           if (hex_to_tag[hex->second.index()] == 0) hex_to_tag[hex->second.index()] = tag;
     };
@@ -309,11 +330,10 @@ class AbaqusReader {
       if (const auto hex = element_to_hex_.find(id); hex != element_to_hex_.end())
         hexes.push_back(hex->second);
     };
-    if (element_or_set.find_first_not_of("0123456789") == std::string::npos &&
-        element_or_set.size() < 18)
+    if (is_number(element_or_set) && element_or_set.size() < 18)
       add(std::stoll(element_or_set));
-    else if (const auto set = element_sets_.find(element_or_set); set != element_sets_.end())
-      for (std::int64_t id : set->second.ids) add(id);
+    else
+      for (std::int64_t id : ids_of(element_sets_, element_or_set)) add(id);
     return hexes;
   }
 
@@ -326,10 +346,7 @@ class AbaqusReader {
         for (HexId h : hexes_of(elements)) {
           const int lf = kFaceOfSide[static_cast<std::size_t>(side)];
           if (!seen.emplace(h, lf).second) continue;
-          const auto& face = kHexFaces[static_cast<std::size_t>(lf)];
-          const auto& hex = file_.hexes[h];
-          const auto vert = [&](std::size_t k) { return hex[static_cast<std::size_t>(face[k])]; };
-          file_.labels.quads.push_back({{vert(0), vert(1), vert(2), vert(3)}, {}});
+          file_.labels.quads.push_back({face_verts(file_.hexes, {h, lf}), {}});
           quad_to_tag.push_back(static_cast<std::int64_t>(s) + 1);
           tags[quad_to_tag.back()] = surfaces_[s].name;
         }
@@ -339,9 +356,7 @@ class AbaqusReader {
   }
 
   void set_corners() {
-    const auto found = node_sets_.find("CORNERS");
-    if (found == node_sets_.end()) return;
-    for (std::int64_t id : found->second.ids)
+    for (std::int64_t id : ids_of(node_sets_, "CORNERS"))
       if (const auto vert = node_to_vert_.find(id); vert != node_to_vert_.end())
         file_.labels.corners.push_back(vert->second);
   }
@@ -355,7 +370,7 @@ class AbaqusReader {
   std::vector<std::int64_t> element_;         // number and nodes so far
   std::unordered_map<std::int64_t, VertId> node_to_vert_;
   std::unordered_map<std::int64_t, HexId> element_to_hex_;
-  Sets element_sets_, node_sets_;
+  AbaqusSets element_sets_, node_sets_;
   std::set<std::string> named_by_element_;
   std::vector<std::string> sections_;
   std::vector<AbaqusSurface> surfaces_;

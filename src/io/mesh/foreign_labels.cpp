@@ -1,46 +1,18 @@
-// Quads are matched with the faces of hexes by their sorted vertices.
+// Quads are matched with the faces of hexes by their vertices.
 #include "io/mesh/foreign_labels.h"
 
 #include <algorithm>
 
-#include "hexwright/base/parallel.h"
+#include "io/sets/face_table.h"
 
 namespace hexwright::io {
 namespace {
 
-using Quad = std::array<VertId, 4>;
-
-Quad sorted(Quad verts) {
-  std::sort(verts.begin(), verts.end());
-  return verts;
-}
-
-struct KeyedFace {
-  Quad key, verts;
-};
-
-std::vector<KeyedFace> sorted_faces(const VolumeFile& file) {
-  std::vector<KeyedFace> faces(6 * file.hexes.size());
-  parallel_for(faces.size(), [&](std::size_t i) {
-    const auto& hex = file.hexes[HexId(i / 6)];
-    for (std::size_t k = 0; k < 4; ++k)
-      faces[i].verts[k] = hex[static_cast<std::size_t>(kHexFaces[i % 6][k])];
-    faces[i].key = sorted(faces[i].verts);
-  });
-  parallel_stable_sort(faces.begin(), faces.end(),
-                       [](const KeyedFace& a, const KeyedFace& b) { return a.key < b.key; });
-  return faces;
-}
-
 /// False for a quad that is no face.
-bool settle(const std::vector<KeyedFace>& faces, LabeledQuad& quad) {
-  const auto less = [](const KeyedFace& face, const Quad& key) { return face.key < key; };
-  const Quad key = sorted(quad.verts);
-  const auto found = std::lower_bound(faces.begin(), faces.end(), key, less);
-  if (found == faces.end() || found->key != key) return false;
-  const bool is_inner = found + 1 != faces.end() && (found + 1)->key == key;
-  if (!is_inner) quad.verts = found->verts;
-  return true;
+bool settle(const Hexes& hexes, const FaceTable& faces, LabeledQuad& quad) {
+  const auto found = faces.find(quad.verts);
+  if (found && !found->is_inner) quad.verts = face_verts(hexes, found->face);
+  return found.has_value();
 }
 
 void drop_unused(VolumeFile& file) {
@@ -74,9 +46,9 @@ void drop_unused(VolumeFile& file) {
 void settle_labels(VolumeFile& file) {
   if (file.hexes.empty()) return;
   if (!file.labels.quads.empty()) {
-    const std::vector<KeyedFace> faces = sorted_faces(file);
-    file.num_others +=
-        std::erase_if(file.labels.quads, [&](LabeledQuad& quad) { return !settle(faces, quad); });
+    const FaceTable faces(file.hexes);
+    file.num_others += std::erase_if(
+        file.labels.quads, [&](LabeledQuad& quad) { return !settle(file.hexes, faces, quad); });
   }
   drop_unused(file);
 }

@@ -92,11 +92,8 @@ class GmshWriter {
     for (VertId v : set_nodes(mesh_, set)) box.extend(mesh_.positions[v]);
     std::vector<std::int64_t> groups = {tag};
     if (set.kind == SetKind::Patch)
-      for (std::size_t g = 0; g < table_.patch_groups.size(); ++g) {
-        const auto& members = table_.patch_groups[g].members;
-        if (std::binary_search(members.begin(), members.end(), set.members[0]))
-          groups.push_back(group_tag(g));
-      }
+      for (std::size_t g = 0; g < table_.patch_groups.size(); ++g)
+        if (is_in_group(set, table_.patch_groups[g])) groups.push_back(group_tag(g));
     out_.integer(tag).text(" ").point(box.lo).text(" ").point(box.hi).text(" ");
     out_.integer(groups.size());
     for (std::int64_t group : groups) out_.text(" ").integer(group);

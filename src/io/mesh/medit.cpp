@@ -194,10 +194,10 @@ void write_names(const SetTable& table, TextWriter& out) {
 
 /// "# patch 3 inlet" in the lines before the vertices.
 void read_names(std::string_view text, SetNames& names) {
-  text = text.substr(0, text.find("Vertices"));
   for (std::size_t end = 0; !text.empty(); text.remove_prefix(std::min(end + 1, text.size()))) {
     end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
+    if (!line.starts_with('#') && line.find("Vertices") != std::string_view::npos) return;
     for (const NamedKind& kind : kNamedKinds) {
       const std::string start = "# " + std::string(kind.word) + " ";
       if (!line.starts_with(start)) continue;

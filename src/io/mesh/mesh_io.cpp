@@ -144,14 +144,6 @@ std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh) {
 
 }  // namespace io
 
-namespace {
-
-/// What an OpenFOAM mesh that is replaced may hold; sets and other folders are the user's.
-const std::vector<std::string> kOpenFoamFiles = {
-    "points", "faces", "owner", "neighbour", "boundary", "cellZones", "faceZones", "pointZones"};
-
-}  // namespace
-
 HexMesh read_hex_mesh(const std::filesystem::path& path) {
   io::VolumeFile file = io::read_volume_file(path);
   if (file.hexes.empty())
@@ -188,7 +180,7 @@ WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& 
   if (options.names_by_place) name_by_place(mesh, table);
   if (io::is_openfoam(path, options.format)) {
     result.changed_names = apply_name_rules(io::openfoam_names(), table);
-    io::write_folder_atomically(path, io::openfoam_files(mesh, table), kOpenFoamFiles);
+    io::write_folder_atomically(path, io::openfoam_files(mesh, table));
     return result;
   }
   const io::MeshFormat* format = io::find_format(path, options.format);

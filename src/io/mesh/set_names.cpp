@@ -1,6 +1,7 @@
 // Numbers of named sets.
 #include "io/mesh/set_names.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <set>
@@ -74,6 +75,10 @@ std::map<std::int64_t, std::int32_t> number_tags(SetKind kind,
                                                  SetNames& names) {
   std::map<std::int64_t, std::int32_t> tag_to_number;
   std::set<std::int64_t> taken;
+  const bool any_named =
+      std::any_of(tags.begin(), tags.end(), [](const auto& tag) { return !tag.second.empty(); });
+  const std::int64_t most = any_named ? kMostNumbers : 0x7ffffff0;
+  std::int64_t next_free = 0;  // for tags that cannot be numbers
   for (const auto& [tag, name] : tags)
     if (const auto number = number_in(kind, name); number && taken.insert(*number).second)
       tag_to_number[tag] = *number;
@@ -81,8 +86,10 @@ std::map<std::int64_t, std::int32_t> number_tags(SetKind kind,
     if (tag_to_number.contains(tag)) continue;
     const bool is_plain_region = kind == SetKind::Region && name.empty();
     std::int64_t number = is_plain_region ? tag : tag - 1;
-    if (number < 0 || number > 0x7ffffff0) number = 0;
+    const bool is_number = number >= 0 && number < most;
+    if (!is_number) number = next_free;
     while (!taken.insert(number).second) ++number;
+    if (!is_number) next_free = number + 1;
     tag_to_number[tag] = static_cast<std::int32_t>(number);
     names.add(kind, number, name);
   }

@@ -23,8 +23,9 @@ class SetNames {
 
 /// What a format's tags of one kind of set are called, and the numbers they get: that of the name
 /// ("PATCH_3" is patch 3, "PATCH_NONE" none), else the tag less one for named sets, patches and
-/// curves and the tag itself for regions without a name, else the next that is free. Names are
-/// added to `names`.
+/// curves and the tag itself for regions without a name, else the next that is free; the latter too
+/// for tags beyond a million where there are names, which they would cost. Names are added to
+/// `names`.
 std::map<std::int64_t, std::int32_t> number_tags(SetKind kind,
                                                  const std::map<std::int64_t, std::string>& tags,
                                                  SetNames& names);

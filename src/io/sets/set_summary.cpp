@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "hexwright/mesh/hex_shape.h"
+
 namespace hexwright {
 namespace {
 
@@ -22,22 +24,6 @@ QuadPlace place_of(const HexMesh& mesh, const std::array<VertId, 4>& verts) {
   return {(p[0] + p[1] + p[2] + p[3]) * 0.25, cross(p[2] - p[0], p[3] - p[1]) * 0.5};
 }
 
-/// By the divergence theorem over its faces, from its own first corner.
-double volume_of(const HexMesh& mesh, HexId h) {
-  const Vec3 origin = mesh.positions[mesh.hexes[h][0]];
-  double volume = 0;
-  for (int lf = 0; lf < 6; ++lf) {
-    std::array<Vec3, 4> p;
-    const auto verts = face_verts(mesh, {h, lf});
-    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[verts[k]] - origin;
-    // The mean of both ways to divide the face into triangles.
-    volume += (det(p[0], p[1], p[2]) + det(p[0], p[2], p[3]) + det(p[1], p[2], p[3]) +
-               det(p[1], p[3], p[0])) /
-              12;
-  }
-  return volume;
-}
-
 /// Adds an element of this measure at its centre.
 void add_element(SetSummary& summary, double measure, const Vec3& center) {
   summary.measure += measure;
@@ -47,9 +33,10 @@ void add_element(SetSummary& summary, double measure, const Vec3& center) {
 void measure_elements(const HexMesh& mesh, const NamedSet& set, SetSummary& summary) {
   for (std::size_t i : set.members) {
     if (set.kind == SetKind::Region) {
+      const auto corners = mesh.corners(HexId(i));
       Vec3 center;
-      for (const Vec3& p : mesh.corners(HexId(i))) center += p * 0.125;
-      add_element(summary, volume_of(mesh, HexId(i)), center);
+      for (const Vec3& p : corners) center += p * 0.125;
+      add_element(summary, hex_volume(corners), center);
     } else if (set.kind == SetKind::Curve) {
       const auto& [a, b] = mesh.labels.edges[i].verts;
       const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
@@ -110,19 +97,22 @@ class ShapeFinder {
   }
 
   /// The direction that all normals lie across best: the least eigenvector of sum n n^T, as the
-  /// greatest one of what it lacks to its trace, by power iteration. Its largest coordinate is
-  /// positive.
+  /// greatest one of what it lacks to its trace, by power iteration. The first of its coordinates
+  /// that is not small is positive.
   Vec3 find_axis() const {
     constexpr int kSteps = 100;
-    Vec3 axis = guess_axis();
-    for (int k = 0; k < kSteps; ++k) {
-      Vec3 next;
-      for (const QuadPlace& place : places_) {
-        const Vec3 n = normalized(place.area);
-        next += (axis - n * dot(n, axis)) * norm(place.area);
+    std::array<Vec3, 3> rows;  // of the sum of (1 - n n^T), by area
+    for (const QuadPlace& place : places_) {
+      const Vec3 n = normalized(place.area);
+      for (int k = 0; k < 3; ++k) {
+        Vec3 row = n * -n[k];
+        row[k] += 1;
+        rows[static_cast<std::size_t>(k)] += row * norm(place.area);
       }
-      axis = normalized(next);
     }
+    Vec3 axis = guess_axis();
+    for (int k = 0; k < kSteps; ++k)
+      axis = normalized({dot(rows[0], axis), dot(rows[1], axis), dot(rows[2], axis)});
     for (int k = 0; k < 3; ++k)
       if (std::abs(axis[k]) > 0.57) return axis[k] < 0 ? axis * -1 : axis;
     return axis;
@@ -202,7 +192,13 @@ SetSummary summarize(const HexMesh& mesh, const NamedSet& set, double diagonal) 
 /// "patch_zmax", "patch_cyl_r5", or "" where the place is not plain.
 std::string place_name(const SetSummary& patch, const Box3& box) {
   constexpr double kAlong = 1 - 1e-4, kNear = 1e-3;
-  if (patch.shape == SetShape::Cylinder) return fmt::format("patch_cyl_r{:.3g}", patch.radius);
+  if (patch.shape == SetShape::Cylinder) {
+    // Letters that every format takes; a point would make "patch_cyl_r2.5" a part of a group.
+    std::string name = fmt::format("patch_cyl_r{:.3g}", patch.radius);
+    for (char& c : name)
+      if (!is_word_letter(c)) c = '_';
+    return name;
+  }
   if (patch.shape != SetShape::Plane) return "";
   for (int axis = 0; axis < 3; ++axis)
     for (const bool is_max : {false, true}) {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
-#include "hexwright/base/parallel.h"
 
 namespace hexwright {
 namespace {
@@ -15,6 +14,20 @@ namespace {
 std::array<VertId, 4> sorted(std::array<VertId, 4> verts) {
   std::sort(verts.begin(), verts.end());
   return verts;
+}
+
+const std::vector<std::string>& names_of(const HexMesh& mesh, SetKind kind) {
+  static const std::vector<std::string> kNone;
+  switch (kind) {
+    case SetKind::Region:
+      return mesh.region_names;
+    case SetKind::Patch:
+      return mesh.labels.patch_names.raw();
+    case SetKind::Curve:
+      return mesh.labels.curve_names.raw();
+    default:
+      return kNone;
+  }
 }
 
 const std::string* find_name(const std::vector<std::string>& names, std::int32_t number) {
@@ -25,15 +38,14 @@ const std::string* find_name(const std::vector<std::string>& names, std::int32_t
 
 /// Elements by number; `number_of(i)` is below -1 only for regions.
 template <class NumberOf>
-std::vector<NamedSet> group(SetKind kind, std::size_t count, const std::vector<std::string>& names,
+std::vector<NamedSet> group(const HexMesh& mesh, SetKind kind, std::size_t count,
                             NumberOf number_of) {
   std::map<std::int32_t, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < count; ++i) groups[number_of(i)].push_back(i);
   std::vector<NamedSet> sets;
   for (auto& [number, members] : groups) {
-    const std::string* name = find_name(names, number);
-    sets.push_back({kind, name ? *name : default_set_name(kind, number), number, std::move(members),
-                    name != nullptr});
+    const bool is_given = find_name(names_of(mesh, kind), number) != nullptr;
+    sets.push_back({kind, set_name(mesh, kind, number), number, std::move(members), is_given});
   }
   return sets;
 }
@@ -91,20 +103,29 @@ std::string default_set_name(SetKind kind, std::int32_t number) {
   }
 }
 
+std::string set_name(const HexMesh& mesh, SetKind kind, std::int32_t number) {
+  const std::string* name = find_name(names_of(mesh, kind), number);
+  return name ? *name : default_set_name(kind, number);
+}
+
 SetTable make_set_table(const HexMesh& mesh) {
   const BoundaryLabels& labels = mesh.labels;
   SetTable table;
-  table.regions = group(SetKind::Region, mesh.num_hexes(), mesh.region_names, [&](std::size_t h) {
+  table.regions = group(mesh, SetKind::Region, mesh.num_hexes(), [&](std::size_t h) {
     return mesh.region.empty() ? 0 : mesh.region[HexId(h)];
   });
-  table.patches = group(SetKind::Patch, labels.quads.size(), labels.patch_names.raw(),
+  table.patches = group(mesh, SetKind::Patch, labels.quads.size(),
                         [&](std::size_t q) { return std::max(-1, labels.quads[q].patch.value()); });
   table.patch_groups = group_patches(table.patches);
-  table.curves = group(SetKind::Curve, labels.edges.size(), labels.curve_names.raw(),
+  table.curves = group(mesh, SetKind::Curve, labels.edges.size(),
                        [&](std::size_t e) { return std::max(-1, labels.edges[e].curve.value()); });
   table.corners =
-      group(SetKind::Corners, labels.corners.size(), {}, [](std::size_t) { return -1; });
+      group(mesh, SetKind::Corners, labels.corners.size(), [](std::size_t) { return -1; });
   return table;
+}
+
+bool is_in_group(const NamedSet& patch, const NamedSet& group) {
+  return std::binary_search(group.members.begin(), group.members.end(), patch.members[0]);
 }
 
 std::vector<VertId> set_nodes(const HexMesh& mesh, const NamedSet& set) {
@@ -123,30 +144,29 @@ std::vector<VertId> set_nodes(const HexMesh& mesh, const NamedSet& set) {
   return verts;
 }
 
+std::vector<HexFace> find_quad_faces(const HexMesh& mesh, const VertToHex& vert_to_hex,
+                                     const std::array<VertId, 4>& quad) {
+  const auto wanted = sorted(quad);
+  std::vector<HexFace> faces;
+  for (const HexCorner& corner : vert_to_hex[quad[0]])
+    for (int lf = 0; lf < 6; ++lf)
+      if (const HexFace face{corner.hex, lf}; sorted(face_verts(mesh, face)) == wanted)
+        faces.push_back(face);
+  return faces;
+}
+
 std::vector<HexFace> find_quad_sides(const HexMesh& mesh) {
-  struct Face {
-    std::array<VertId, 4> key;
-    HexFace face;
-  };
-  std::vector<Face> faces(mesh.labels.quads.empty() ? 0 : 6 * mesh.num_hexes());
-  parallel_for(faces.size(), [&](std::size_t i) {
-    const HexFace face = {HexId(i / 6), static_cast<int>(i % 6)};
-    faces[i] = {sorted(face_verts(mesh, face)), face};
-  });
-  parallel_stable_sort(faces.begin(), faces.end(),
-                       [](const Face& a, const Face& b) { return a.key < b.key; });
-  std::vector<HexFace> result;
+  if (mesh.labels.quads.empty()) return {};
+  const VertToHex vert_to_hex(mesh);
+  std::vector<HexFace> sides;
   for (const LabeledQuad& quad : mesh.labels.quads) {
-    const auto key = sorted(quad.verts);
-    const auto found = std::lower_bound(
-        faces.begin(), faces.end(), key,
-        [](const Face& face, const std::array<VertId, 4>& k) { return face.key < k; });
-    if (found == faces.end() || found->key != key)
+    const auto faces = find_quad_faces(mesh, vert_to_hex, quad.verts);
+    if (faces.empty())
       throw Error(ErrorCode::BadArgument,
                   "a labelled quad is no face of any hex; remove it from the labels");
-    result.push_back(found->face);
+    sides.push_back(faces.front());
   }
-  return result;
+  return sides;
 }
 
 }  // namespace hexwright

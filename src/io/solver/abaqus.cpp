@@ -15,12 +15,8 @@ namespace {
 constexpr std::array<int, 6> kAbaqusFace = {6, 4, 3, 5, 1, 2};
 
 void write_node_set(TextWriter& out, const std::string& name, const std::vector<VertId>& nodes) {
-  constexpr std::size_t kPerLine = 8;
   out.text("*NSET, NSET=").text(name).text("\n");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const bool is_line_end = i % kPerLine + 1 == kPerLine || i + 1 == nodes.size();
-    out.integer(nodes[i].value() + 1).text(is_line_end ? "\n" : ", ");
-  }
+  out.lines(8, ", ", nodes, [&](VertId v) { out.integer(v.value() + 1); });
 }
 
 void write_nodes_and_elements(const HexMesh& mesh, const SetTable& table, TextWriter& out) {

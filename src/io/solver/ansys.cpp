@@ -54,13 +54,9 @@ void write_elements(const HexMesh& mesh, const SetTable& table, TextWriter& out)
 
 void write_component(const std::string& name, const char* kind, const std::vector<std::size_t>& ids,
                      TextWriter& out) {
-  constexpr std::size_t kPerLine = 8;
   out.text("CMBLOCK,").text(name).text(",").text(kind).text(",").integer(ids.size());
   out.text("\n(8i10)\n");
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const bool is_line_end = i % kPerLine + 1 == kPerLine || i + 1 == ids.size();
-    out.integer_in(10, ids[i] + 1).text(is_line_end ? "\n" : "");
-  }
+  out.lines(8, "", ids, [&](std::size_t id) { out.integer_in(10, id + 1); });
 }
 
 }  // namespace

@@ -42,13 +42,8 @@ void write_segments(const HexMesh& mesh, const NamedSet& patch, std::size_t numb
 
 void write_node_list(const HexMesh& mesh, const NamedSet& set, std::size_t number,
                      TextWriter& out) {
-  constexpr std::size_t kPerLine = 8;
   out.text("*SET_NODE_LIST_TITLE\n").text(set.name).text("\n").integer_in(10, number).text("\n");
-  const std::vector<VertId> nodes = set_nodes(mesh, set);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const bool is_line_end = i % kPerLine + 1 == kPerLine || i + 1 == nodes.size();
-    out.integer_in(10, nodes[i].value() + 1).text(is_line_end ? "\n" : "");
-  }
+  out.lines(8, "", set_nodes(mesh, set), [&](VertId v) { out.integer_in(10, v.value() + 1); });
 }
 
 }  // namespace

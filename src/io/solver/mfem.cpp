@@ -5,8 +5,6 @@
 //
 // Based on: "MFEM mesh formats", section "MFEM mesh v1.0" and "v1.3" of the library's
 // documentation. Its cube and square have our local order.
-#include <algorithm>
-
 #include "io/solver/boundary_sides.h"
 #include "io/solver/solver_formats.h"
 #include "io/text/text_writer.h"
@@ -41,8 +39,7 @@ void write_elements(const HexMesh& mesh, const SetTable& table, TextWriter& out)
 std::vector<std::size_t> attributes_of(const NamedSet& group, const SetTable& table) {
   std::vector<std::size_t> attributes;
   for (std::size_t p = 0; p < table.patches.size(); ++p)
-    if (std::binary_search(group.members.begin(), group.members.end(), table.patches[p].members[0]))
-      attributes.push_back(p + 1);
+    if (is_in_group(table.patches[p], group)) attributes.push_back(p + 1);
   return attributes;
 }
 

@@ -95,8 +95,7 @@ class FoamWriter {
 
   const NamedSet* group_of(const NamedSet& patch) const {
     for (const NamedSet& group : table_.patch_groups)
-      if (std::binary_search(group.members.begin(), group.members.end(), patch.members[0]))
-        return &group;
+      if (is_in_group(patch, group)) return &group;
     return nullptr;
   }
 
@@ -156,17 +155,23 @@ class FoamWriter {
     return face[static_cast<std::size_t>((at + 1) % 4)] != quad[1];
   }
 
+  /// Of an inner face, by its owner.
+  std::size_t number_of(const HexFace& face) const {
+    const auto end = faces_.begin() + static_cast<std::ptrdiff_t>(num_inner_);
+    auto at = std::lower_bound(faces_.begin(), end, face.hex,
+                               [](const FoamFace& f, HexId owner) { return f.face.hex < owner; });
+    while (!(at->face == face)) ++at;
+    return static_cast<std::size_t>(at - faces_.begin());
+  }
+
   std::string face_zones() const {
-    std::map<std::pair<HexId, int>, std::size_t> number;
-    for (std::size_t f = 0; f < num_inner_; ++f)
-      number[{faces_[f].face.hex, faces_[f].face.lf}] = f;
     std::map<std::size_t, std::vector<InnerSide>> patch_to_sides;
     for (const InnerSide& side : sides_.inner) patch_to_sides[side.patch].push_back(side);
     TextWriter out = begin_file("regIOobject", "faceZones");
     out.integer(patch_to_sides.size()).text("\n(\n");
     for (const auto& [patch, sides] : patch_to_sides) {
       begin_zone(table_.patches[patch].name, "faceZone", "faceLabels", sides.size(), out);
-      for (const InnerSide& s : sides) out.integer(number.at({s.face.hex, s.face.lf})).text("\n");
+      for (const InnerSide& s : sides) out.integer(number_of(s.face)).text("\n");
       out.text(")\n;\n    flipMap List<bool>\n").integer(sides.size()).text("\n(\n");
       for (const InnerSide& side : sides) out.text(is_flipped(side) ? "1\n" : "0\n");
       out.text(")\n;\n}\n");

@@ -52,8 +52,8 @@ class EarClipper {
       check_cancelled();
       const std::uint32_t ear = first_ear(start);
       out.push_back(corner(ear));
-      start =
-          next_[next_[ear]];  // not the neighbour: a convex polygon is cut evenly, not into a fan
+      // Not the neighbour: a convex polygon is cut evenly, not into a fan.
+      start = next_[next_[ear]];
       cut(ear);
     }
     const std::uint32_t first = first_left_;

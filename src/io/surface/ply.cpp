@@ -252,10 +252,12 @@ class PlyReader {
   PolygonSoup run() {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;  // holds no data, whatever its count says
+      const PlyProperty* group = element.name == "face" ? find_group_property(element) : nullptr;
+      if (group) group_property_ = group->name;
       for (std::size_t i = 0; i < element.count; ++i) {
         check_cancelled_();
         body_.begin(element, i);
-        read_element(element);
+        read_element(element, group);
       }
     }
     check_indices();
@@ -264,12 +266,10 @@ class PlyReader {
   }
 
  private:
-  void read_element(const PlyElement& element) {
+  void read_element(const PlyElement& element, const PlyProperty* group) {
     if (element.name == "vertex") return read_vertex(element);
     const bool is_face = element.name == "face";
     const bool is_strips = element.name == "tristrips";
-    const PlyProperty* group = is_face ? find_group_property(element) : nullptr;
-    if (group) group_property_ = group->name;
     std::int64_t number = -1;
     if (group) face_to_number_.resize(soup_.ends.size(), -1);
     for (const PlyProperty& property : element.properties) {

@@ -52,7 +52,11 @@ std::size_t utf8_length(std::string_view text) {
   if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  return length;
+  // The second byte tells forms that are longer than need be, surrogates and what is beyond
+  // U+10FFFF.
+  const int least = byte(0) == 0xe0 ? 0xa0 : byte(0) == 0xf0 ? 0x90 : 0x80;
+  const int most = byte(0) == 0xed ? 0x9f : byte(0) == 0xf4 ? 0x8f : 0xbf;
+  return byte(1) >= least && byte(1) <= most ? length : 0;
 }
 
 }  // namespace
@@ -76,15 +80,12 @@ std::string clean_name(std::string_view name) {
   while (!name.empty() && is_blank(name.front())) name.remove_prefix(1);
   while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
   std::string clean;
-  for (std::size_t i = 0; i < name.size() && clean.size() < kLongest;) {
-    const std::size_t length = utf8_length(name.substr(i));
-    if (length == 0) {
-      clean += '_';
-      ++i;
-      continue;
-    }
-    clean += name.substr(i, length);
-    i += length;
+  while (!name.empty()) {
+    const std::size_t length = utf8_length(name);
+    const std::string_view next = length == 0 ? "_" : name.substr(0, length);
+    if (clean.size() + next.size() > kLongest) break;
+    clean += next;
+    name.remove_prefix(next.size());
   }
   return clean;
 }

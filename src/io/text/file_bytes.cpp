@@ -9,6 +9,8 @@
 
 #include <zlib.h>
 
+#include "hexwright/base/cancel.h"
+
 namespace hexwright::io {
 namespace {
 
@@ -31,6 +33,7 @@ std::string inflate_gzip(const std::string& packed, const std::string& name) {
   std::size_t begin = 0;
   int status = Z_OK;
   while (begin < packed.size() || status == Z_OK) {
+    check_cancelled();
     if (status == Z_STREAM_END && !is_gzip(std::string_view(packed).substr(begin))) break;
     if (status == Z_STREAM_END && inflateReset(&stream) != Z_OK) throw fail("is damaged");
     const std::size_t piece = std::min(packed.size() - begin, std::size_t{1} << 30);

@@ -17,14 +17,15 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::CannotOpen, message, path.string());
 }
 
-void check_replaceable(const fs::path& path, const std::vector<std::string>& replaceable) {
+void check_replaceable(const fs::path& path, const std::vector<FolderFile>& files) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return;
   if (!fs::is_directory(path, ignored)) fail(path, "is a file; name a folder for this format");
   for (const auto& entry : fs::directory_iterator(path)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_directory(ignored) ||
-        std::find(replaceable.begin(), replaceable.end(), name) == replaceable.end())
+    const bool is_ours = std::any_of(files.begin(), files.end(),
+                                     [&](const FolderFile& file) { return file.name == name; });
+    if (!is_ours || entry.is_directory(ignored))
       fail(path, "the folder holds '" + name +
                      "', which is no file of the format; remove it or choose another folder");
   }
@@ -43,31 +44,41 @@ fs::path make_part_folder(const fs::path& path, const char* ending) {
   fail(path, "too many unfinished folders are beside it; remove them");
 }
 
+/// A folder that is there steps aside first, and comes back when the new one cannot take its place.
+void take_place(const fs::path& part, const fs::path& path) {
+  std::error_code error, ignored;
+  if (!fs::exists(path, ignored)) {
+    fs::rename(part, path, error);
+    if (error) fail(path, "cannot write the folder: " + error.message());
+    return;
+  }
+  const fs::path old = make_part_folder(path, ".old");
+  fs::rename(path, old, error);  // over the empty folder
+  if (!error) {
+    fs::rename(part, path, error);
+    if (error) fs::rename(old, path, ignored);
+  }
+  if (error) {
+    fs::remove(old, ignored);  // empty, or back in its place
+    fail(path, "cannot write the folder: " + error.message());
+  }
+  fs::remove_all(old, ignored);
+}
+
 }  // namespace
 
-void write_folder_atomically(const fs::path& given, const std::vector<FolderFile>& files,
-                             const std::vector<std::string>& replaceable) {
+void write_folder_atomically(const fs::path& given, const std::vector<FolderFile>& files) {
   const fs::path path = given.has_filename() ? given : given.parent_path();  // "polyMesh/"
-  check_replaceable(path, replaceable);
+  check_replaceable(path, files);
   const fs::path part = make_part_folder(path, ".part");
-  std::error_code error, ignored;
   try {
     for (const FolderFile& file : files) write_file_atomically(part / file.name, file.bytes);
+    take_place(part, path);
   } catch (...) {
+    std::error_code ignored;
     fs::remove_all(part, ignored);
     throw;
   }
-  fs::path old;
-  if (fs::exists(path, ignored)) {
-    old = make_part_folder(path, ".old");
-    fs::rename(path, old, error);  // over the empty folder
-  }
-  if (!error) fs::rename(part, path, error);
-  if (error) {
-    fs::remove_all(part, ignored);
-    fail(path, "cannot write the folder: " + error.message());
-  }
-  if (!old.empty()) fs::remove_all(old, ignored);
 }
 
 }  // namespace hexwright::io

@@ -67,6 +67,17 @@ class TextWriter {
     store(out_, value, order);
     return *this;
   }
+  /// Items in lines of `per_line`, each by `put`, with `separator` between those of a line.
+  template <class Items, class Put>
+  TextWriter& lines(std::size_t per_line, const char* separator, const Items& items, Put&& put) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      put(items[i]);
+      const bool is_line_end = (i + 1) % per_line == 0 || i + 1 == items.size();
+      text(is_line_end ? "\n" : separator);
+    }
+    return *this;
+  }
+
   std::string take() { return std::move(out_); }
 
  private:

@@ -1,6 +1,7 @@
 // The demands, a row each.
 #include "pipeline/loop/demands.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -173,7 +174,10 @@ double mean_beyond_goal(const RoundInput& input, const Round& round) {
 // A mesh beyond the gate is no result, however well shaped: distance to it goes before the rest.
 // The mean has no places: scale_for_mean() makes all cells smaller.
 constexpr Demand kDemands[] = {
-    {.name = "valid", .is_met = is_valid, .places = places_of_contact},
+    {.name = "valid",
+     .is_met = is_valid,
+     .places = places_of_contact,
+     .severity = Severity::Failure},
     {.name = "within_gate",
      .is_met = is_near,
      .shortfall = distance_beyond_tolerance,
@@ -222,6 +226,13 @@ constexpr double kMaxFeatureFactor = 5.001;
 }  // namespace
 
 std::span<const Demand> demands() { return kDemands; }
+
+bool meets_no_less(const RoundInput& input, const Round& before, const Round& after) {
+  return std::ranges::none_of(kDemands, [&](const Demand& demand) {
+    const bool is_told = demand.sentence || demand.severity == Severity::Failure;
+    return is_told && demand.is_met(input, before) && !demand.is_met(input, after);
+  });
+}
 
 bool has_expected_topology(const RoundInput& input, const Round& round) {
   if (!input.target.expected.is_known || !is_inside(input)) return true;

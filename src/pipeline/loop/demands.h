@@ -10,7 +10,7 @@
 
 namespace hexwright {
 
-/// Whether a sentence fails the gate.
+/// Whether what is missed fails the gate.
 enum class Severity { Warning, Failure };
 
 /// One demand on a round. Functions that are null do not apply.
@@ -36,6 +36,9 @@ struct Demand {
 
 /// All demands. The order is their rank: what comes first decides first.
 std::span<const Demand> demands();
+
+/// Whether `after` meets all that `before` meets, of the demands that users are told of.
+bool meets_no_less(const RoundInput& input, const Round& before, const Round& after);
 
 /// The surface's boundary components and genus. By the boundary and not by the hexes: cavities
 /// count as components of it too.

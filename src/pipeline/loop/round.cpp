@@ -112,12 +112,10 @@ Round lift_round(const RoundInput& input, Round round) {
   lifted.verdict = run_stage(lifted.stages, "judge", input.context, [&] {
     return judge(lifted.fit.mesh, input.target, input.plan.judge, input.context);
   });
-  const bool is_kept = std::none_of(demands().begin(), demands().end(), [&](const Demand& demand) {
-    return demand.sentence && demand.is_met(input, round) && !demand.is_met(input, lifted);
-  });
+  const bool is_kept = meets_no_less(input, round, lifted);
   count(lifted.stages.back(), "lift kept", is_kept ? 1 : 0);
   if (is_kept) return lifted;
-  round.stages = std::move(lifted.stages);
+  round.stages = std::move(lifted.stages);  // the time is spent
   round.fit.memory.reset();
   return round;
 }

@@ -1,3 +1,4 @@
+// The walls of the surface, against the mesh's boundary.
 #include "pipeline/loop/thin_misses.h"
 
 #include <cmath>
@@ -15,7 +16,7 @@ constexpr double kVolumeCure = 0.01;
 /// The same of a wall: each of its two sides may be off by half of that, as a share of its
 /// thickness.
 constexpr double kThinShare = kVolumeCure / 2;
-/// Between samples of the walls, share of the diagonal; every triangle has one.
+/// Between samples of the walls, share of the diagonal.
 constexpr double kSpacing = 0.01;
 
 }  // namespace
@@ -23,8 +24,8 @@ constexpr double kSpacing = 0.01;
 std::vector<Vec3> find_thin_misses(const RoundInput& input, const Round& round) {
   if (volume_off(input, round) <= kVolumeCure) return {};
   const SurfaceTree boundary(boundary_triangles(round.fit.mesh));
-  const std::vector<WallSample> walls = sample_opposite_walls(
-      input.target.surface(), kSpacing * input.target.diagonal(), input.context);
+  const std::vector<WallSample> walls =
+      sample_opposite_walls(input.target.tree, kSpacing * input.target.diagonal(), input.context);
   std::vector<char> is_missed(walls.size(), 0);
   parallel_for(walls.size(), [&](std::size_t i) {
     is_missed[i] = std::isfinite(walls[i].inner) &&

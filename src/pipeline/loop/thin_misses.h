@@ -3,9 +3,6 @@
 
 #include <vector>
 
-#include "hexwright/geometry/surface_tree.h"
-#include "hexwright/mesh/hex_mesh.h"
-
 #include "pipeline/loop/round.h"
 
 namespace hexwright {

@@ -1,13 +1,14 @@
-// Reading values of options. Numbers are read whole or refused: signs where none belong, rests
-// behind the number and overflow are errors.
+// Reading values of options. Numbers are read whole, in any locale, or refused: signs where none
+// belong, rests behind the number and overflow are errors.
 #include "pipeline/options/option_rows.h"
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,20 +22,18 @@ namespace {
   throw Error(ErrorCode::BadArgument, fmt::format("'{}' is {}", text, what));
 }
 
-template <class Integer>
-std::optional<Integer> to_whole(const std::string& text) {
-  Integer value = 0;
+template <class Value>
+std::optional<Value> read_whole(std::string_view text) {
+  Value value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc{} || stop != end) return std::nullopt;
   return value;
 }
 
-std::optional<double> to_number(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::optional<double> to_number(std::string_view text) {
+  const auto value = read_whole<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 bool to_flag(const std::string& text) {
@@ -61,15 +60,11 @@ NamedOption make_row(RowText text, OptionKind kind, std::string allowed, std::st
 }  // namespace
 
 double parse_share(const std::string& text) {
-  char* end = nullptr;
-  double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) refuse(text, "not a number");
-  if (*end == '%') {
-    value /= 100;
-    ++end;
-  }
+  const bool is_percent = text.ends_with('%');
+  const auto number = to_number(std::string_view(text).substr(0, text.size() - is_percent));
+  const double value = number.value_or(0) / (is_percent ? 100 : 1);
   // A share of 1 or more is nearly always a forgotten percent sign.
-  if (*end != '\0' || !(value > 0) || !(value < 1))
+  if (!(value > 0) || !(value < 1))
     refuse(text, "not a share of the diagonal; write e.g. 0.5% or 0.005");
   return value;
 }
@@ -92,7 +87,7 @@ NamedOption whole_row(RowText text, int& value, int least, int most) {
   const std::string allowed = describe_range(least, most);
   NamedOption row = make_row(std::move(text), OptionKind::Whole, allowed, fmt::to_string(value));
   row.set = [&value, least, most, allowed](const std::string& given) {
-    const auto number = to_whole<int>(given);
+    const auto number = read_whole<int>(given);
     if (!number || *number < least || *number > most)
       refuse(given, "no whole number from " + allowed);
     value = *number;
@@ -104,7 +99,7 @@ NamedOption count_row(RowText text, std::size_t& value) {
   NamedOption row =
       make_row(std::move(text), OptionKind::Whole, "1 or more", fmt::to_string(value));
   row.set = [&value](const std::string& given) {
-    const auto number = to_whole<std::uint64_t>(given);
+    const auto number = read_whole<std::uint64_t>(given);
     if (!number || *number == 0)
       refuse(given, "no whole number from 1 up to 2^64; write digits only");
     value = *number;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hexwright/base/function_ref.h"
+#include "hexwright/pipeline/option_names.h"
 #include "hexwright/pipeline/option_table.h"
 
 namespace hexwright {
@@ -35,21 +36,16 @@ NamedOption choice_row(RowText text, const std::vector<std::string>& names,
 /// The number of a name among those allowed. Throws Error{BadArgument}.
 std::size_t find_choice(const std::string& text, const std::vector<std::string>& names);
 
-template <class Enum>
-using Choices = std::vector<std::pair<std::string, Enum>>;
-
-/// One of a few names. `value` may be an Enum or an optional one.
-template <class Enum, class Value>
-NamedOption choice_row(RowText text, Value& value, const Choices<Enum>& choices) {
+/// One of a few names.
+template <class Enum, std::size_t N>
+NamedOption choice_row(RowText text, Enum& value, const NamedChoice<Enum> (&choices)[N]) {
   std::vector<std::string> names;
   std::vector<Enum> values;
-  std::string fallback;
   for (const auto& [name, choice] : choices) {
     names.push_back(name);
     values.push_back(choice);
-    if (value == choice) fallback = name;
   }
-  NamedOption row = choice_row(std::move(text), names, fallback);
+  NamedOption row = choice_row(std::move(text), names, name_of(choices, value));
   row.set = [&value, names, values](const std::string& given) {
     value = values[find_choice(given, names)];
   };

@@ -18,11 +18,10 @@ void append(OptionTable& table, OptionTable rows) {
 
 OptionTable sizing_rows(SizingOptions& options) {
   return {
-      choice_row<Sizing>(
-          {"sizing",
-           "Where cells are fine: 'deviation' where the surface bends or walls are near, "
-           "'thickness' by the shape diameter alone"},
-          options.sizing, {{"deviation", Sizing::Deviation}, {"thickness", Sizing::Thickness}}),
+      choice_row({"sizing",
+                  "Where cells are fine: 'deviation' where the surface bends or walls are near, "
+                  "'thickness' by the shape diameter alone"},
+                 options.sizing, kSizingNames),
       share_row(
           {"tolerance", "Distance goal as a share of the bounding box's diagonal, 0.5% or 0.005"},
           options.tolerance),
@@ -36,20 +35,12 @@ OptionTable sizing_rows(SizingOptions& options) {
 
 OptionTable complete_rows(CompleteOptions& options) {
   return {
-      choice_row<Pairing>({"pairing", "How the grid is made hexmeshable"}, options.pairing,
-                          {{"blocks", Pairing::Blocks},
-                           {"none", Pairing::None},
-                           {"octree", Pairing::Octree},
-                           {"sheets", Pairing::Sheets}}),
-      choice_row<Balance>(
+      choice_row({"pairing", "How the grid is made hexmeshable"}, options.pairing, kPairingNames),
+      choice_row(
           {"balance",
            "Cells sharing a face (weak) or also an edge or vertex (strong) differ by at most one "
            "level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak"},
-          options.balance,
-          {{"auto", Balance::Auto},
-           {"relaxed", Balance::Relaxed},
-           {"strong", Balance::Strong},
-           {"weak", Balance::Weak}}),
+          options.balance, kBalanceNames),
   };
 }
 
@@ -60,31 +51,25 @@ NamedOption feature_angle_row(FeatureOptions& options) {
 
 OptionTable fit_rows(FitOptions& options) {
   return {
-      choice_row<Side>(
+      choice_row(
           {"side", "What to mesh: the object, the box around it, or both with two region tags"},
-          options.carve.side,
-          {{"both", Side::Both}, {"inside", Side::Inside}, {"outside", Side::Outside}}),
-      choice_row<Padding>({"padding", "Where a layer of hexes is put under the boundary"},
-                          options.padding,
-                          {{"everywhere", Padding::Everywhere}, {"selective", Padding::Selective}}),
-      choice_row<PatchVerts>(
+          options.carve.side, kSideNames),
+      choice_row({"padding", "Where a layer of hexes is put under the boundary"}, options.padding,
+                 kPaddingNames),
+      choice_row(
           {"vertices",
            "Vertices of curved patches: beside the surface, so that quads err to both sides of "
            "it, or on it"},
-          options.patch_verts,
-          {{"balanced", PatchVerts::Balanced}, {"on-surface", PatchVerts::OnSurface}}),
+          options.patch_verts, kPatchVertsNames),
   };
 }
 
 OptionTable prepare_rows(PrepareOptions& options) {
   OptionTable table = {
-      choice_row<Parts>(
-          {"parts",
-           "Solids that overlap or touch: united; those that only touch kept apart; or all "
-           "surfaces "
-           "left as they are"},
-          options.parts,
-          {{"as-is", Parts::AsIs}, {"separate", Parts::Separate}, {"unite", Parts::Unite}}),
+      choice_row({"parts",
+                  "Solids that overlap or touch: united; those that only touch kept apart; or all "
+                  "surfaces left as they are"},
+                 options.parts, kPartsNames),
       share_row(
           {"min-part",
            "Parts no longer than this share of the diagonal are left out, with a warning, and "
@@ -110,11 +95,11 @@ void let_level_bind_loop(OptionTable& table, MeshOptions& options) {
 OptionTable make_option_table(MeshOptions& options) {
   OptionTable table = sizing_rows(options.sizing);
   let_level_bind_loop(table, options);
-  table.push_back(choice_row<Placement>(
+  table.push_back(choice_row(
       {"placement",
        "The lattice along the part's faces, however they are turned (inside only), or along the "
        "given axes"},
-      options.target.placement, {{"as-given", Placement::AsGiven}, {"faces", Placement::Faces}}));
+      options.target.placement, kPlacementNames));
   append(table, prepare_rows(options.target.prepare));
   table.push_back(
       number_row({"transition-cost",
@@ -155,10 +140,8 @@ OptionTable make_option_table(CompleteOptions& options) { return complete_rows(o
 
 OptionTable make_option_table(DualStageOptions& options) {
   return {
-      choice_row<std::optional<DualMode>>(
-          {"mode", "'blocks' needs a paired grid, 'sheets' a balanced one; 'auto' looks"},
-          options.mode,
-          {{"auto", std::nullopt}, {"blocks", DualMode::Blocks}, {"sheets", DualMode::Sheets}}),
+      choice_row({"mode", "'blocks' needs a paired grid, 'sheets' a balanced one; 'auto' looks"},
+                 options.mode, kDualModeNames),
       flag_row({"no-optimize", "Leave the vertices where they were made"}, options.optimize, false),
   };
 }

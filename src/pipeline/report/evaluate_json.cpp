@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hexwright/pipeline/evaluate.h"
+#include "hexwright/pipeline/option_names.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -62,7 +63,7 @@ std::string record_to_json(const ModelRecord& record, int indent) {
 std::string evaluate_options_to_json(const EvaluateOptions& o) {
   const SizingOptions& s = o.sizing;
   const Json json = {{"grid",
-                      {{"sizing", s.sizing == Sizing::Thickness ? "thickness" : "deviation"},
+                      {{"sizing", name_of(kSizingNames, s.sizing)},
                        {"margin", s.margin},
                        {"min_level", s.min_level},
                        {"max_level", s.max_level},

@@ -4,6 +4,8 @@
 
 #include "hexwright/pipeline/inspect.h"
 
+#include "base/words.h"
+
 namespace hexwright {
 namespace {
 
@@ -14,10 +16,6 @@ std::string line(const char* label, const std::string& text) {
 }
 
 std::string at(const Vec3& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z); }
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 std::string places(const std::vector<InspectedPlace>& list) {
   std::string text;
@@ -75,7 +73,8 @@ std::string inspection_to_text(const SurfaceInspection& s) {
   for (const NamedShare& n : s.names)
     text += line("", fmt::format("{}: {}", n.name.empty() ? "(none)" : n.name,
                                  counted(n.num_tris, "triangle", "triangles")));
-  text += pieces_lines(s);
+  // What is refused at once was not looked at.
+  if (s.num_solids + s.num_cavities + s.num_open_tris > 0) text += pieces_lines(s);
   if (!s.refusal.empty()) return text + line("mesh", "would refuse it: " + s.refusal);
   text += object_lines(s);
   for (const std::string& note : s.notes) text += line("mesh", "would say: " + note);

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hexwright/io/set_summary.h"
+#include "hexwright/pipeline/option_names.h"
+#include "hexwright/pipeline/plan.h"
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
@@ -18,44 +20,39 @@ namespace {
 // Ordered: reports of two runs can be compared line by line.
 using Json = nlohmann::ordered_json;
 
-// By the values of the enums; the names are those of the command line.
-constexpr const char* kBalanceNames[] = {"relaxed", "weak", "strong"};
-constexpr const char* kPairingNames[] = {"none", "sheets", "blocks", "octree"};
-constexpr const char* kPartsNames[] = {"unite", "separate", "as-is"};
-constexpr const char* kSideNames[] = {"inside", "outside", "both"};
-
 std::string to_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
+/// The surface is described as it was asked for in the end: some wishes follow from others.
 Json describe_options(const MeshOptions& o) {
-  return {
-      {"parts", kPartsNames[static_cast<int>(o.target.prepare.parts)]},
-      {"min_part", o.target.prepare.min_part < 0 ? o.sizing.tolerance : o.target.prepare.min_part},
-      {"sizing", o.sizing.sizing == Sizing::Thickness ? "thickness" : "deviation"},
-      {"tolerance", o.sizing.tolerance},
-      {"deviation_factor", o.sizing.deviation_factor},
-      {"wall_factor", o.sizing.wall_factor},
-      {"crease_proximity", o.sizing.crease_proximity},
-      {"margin", o.sizing.margin},
-      {"min_level", o.sizing.min_level},
-      {"max_level", o.sizing.max_level},
-      {"loop_extra_levels", o.loop_extra_levels},
-      {"max_cells", o.sizing.max_cells},
-      {"pairing", kPairingNames[static_cast<int>(o.complete.pairing)]},
-      {"balance", kBalanceNames[static_cast<int>(resolve_balance(o.complete))]},
-      {"side", kSideNames[static_cast<int>(o.fit.carve.side)]},
-      {"padding", o.fit.padding == Padding::Everywhere ? "everywhere" : "selective"},
-      {"vertices", o.fit.patch_verts == PatchVerts::Balanced ? "balanced" : "on-surface"},
-      {"placement", o.target.placement == Placement::AsGiven ? "as-given" : "faces"},
-      {"feature_angle_deg", degrees(o.target.features.crease_angle)},
-      {"feature_edges_given", o.target.features.extra_segments.size()},
-      {"mean_share", o.mean_share},
-      {"max_rounds", o.max_rounds},
-      {"max_hexes", o.max_hexes},
-      {"max_loop_hexes", o.max_loop_hexes}};
+  const TargetOptions target = plan_target(o);
+  return {{"parts", name_of(kPartsNames, target.prepare.parts)},
+          {"min_part", target.prepare.min_part},
+          {"sizing", name_of(kSizingNames, o.sizing.sizing)},
+          {"tolerance", o.sizing.tolerance},
+          {"deviation_factor", o.sizing.deviation_factor},
+          {"wall_factor", o.sizing.wall_factor},
+          {"crease_proximity", o.sizing.crease_proximity},
+          {"margin", o.sizing.margin},
+          {"min_level", o.sizing.min_level},
+          {"max_level", o.sizing.max_level},
+          {"loop_extra_levels", o.loop_extra_levels},
+          {"max_cells", o.sizing.max_cells},
+          {"pairing", name_of(kPairingNames, o.complete.pairing)},
+          {"balance", name_of(kBalanceNames, resolve_balance(o.complete))},
+          {"side", name_of(kSideNames, o.fit.carve.side)},
+          {"padding", name_of(kPaddingNames, o.fit.padding)},
+          {"vertices", name_of(kPatchVertsNames, o.fit.patch_verts)},
+          {"placement", name_of(kPlacementNames, target.placement)},
+          {"feature_angle_deg", degrees(target.features.crease_angle)},
+          {"feature_edges_given", target.features.extra_segments.size()},
+          {"mean_share", o.mean_share},
+          {"max_rounds", o.max_rounds},
+          {"max_hexes", o.max_hexes},
+          {"max_loop_hexes", o.max_loop_hexes}};
 }
 
 Json describe_surface(const SurfaceDiagnosis& s) {

@@ -126,7 +126,7 @@ class Packer {
       next += is_shown ? 1 : 0;
     }
     add("faces", per_hex([&](HexId h) { return scene_.marked[h]; }), 1);
-    if (has_patches) add("patches", patches, 2);
+    if (has_patches) add("patches", patches, 4);
     if (!scene_.distance.empty()) add("distance", distances, 1);
   }
 
@@ -134,7 +134,7 @@ class Packer {
     const auto index_of = [&](HexId h) {
       return std::lower_bound(regions.begin(), regions.end(), mesh_.region[h]) - regions.begin();
     };
-    add("regions", per_hex(index_of), 2);
+    add("regions", per_hex(index_of), 4);
   }
 
   void add_field(std::size_t i) {

@@ -17,8 +17,8 @@ namespace hexwright {
 ///   quality     n bytes: 0 = inverted (scaled Jacobian <= 0), k = up to k / 250
 ///   depth       n bytes: layers from the boundary
 ///   faces       n bytes: bits of marked faces, by local face
-///   patches     f numbers of 2 bytes: patch + 1, 0 = none; left out without labels
-///   regions     n numbers of 2 bytes: index into the scene's list; left out for one region
+///   patches     f numbers of 4 bytes: patch + 1, 0 = none; left out without labels
+///   regions     n numbers of 4 bytes: index into the scene's list; left out for one region
 ///   hex_ids     n deltas of 4 bytes; where not all hexes are there
 ///   vert_ids    m deltas of 4 bytes; where not all vertices are there
 ///   distance    f bytes: shares of the largest, 255 = it; with a surface only

@@ -1,6 +1,7 @@
 #include "render/page/view_summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +10,6 @@
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
-#include "render/face_patches.h"
 #include "render/page/view_arrays.h"
 
 namespace hexwright {
@@ -33,19 +33,6 @@ double quad_area(const HexMesh& mesh, const std::array<VertId, 4>& quad) {
   return area;
 }
 
-std::string curve_name(const HexMesh& mesh, CurveId curve) {
-  const auto& names = mesh.labels.curve_names;
-  const bool has_name = curve.index() < names.size() && !names[curve].empty();
-  return has_name ? names[curve] : default_set_name(SetKind::Curve, curve.value());
-}
-
-std::string region_name(const HexMesh& mesh, std::int32_t tag) {
-  const auto& names = mesh.region_names;
-  const bool has_name = tag >= 0 && static_cast<std::size_t>(tag) < names.size() &&
-                        !names[static_cast<std::size_t>(tag)].empty();
-  return has_name ? names[static_cast<std::size_t>(tag)] : default_set_name(SetKind::Region, tag);
-}
-
 Json list_patches(const HexMesh& mesh) {
   struct Patch {
     std::size_t num_quads = 0;
@@ -60,7 +47,7 @@ Json list_patches(const HexMesh& mesh) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < patches.size(); ++i)
-    list.push_back({{"name", patch_name(mesh, PatchId(i))},
+    list.push_back({{"name", set_name(mesh, SetKind::Patch, PatchId(i).value())},
                     {"quads", patches[i].num_quads},
                     {"area", patches[i].area}});
   return list;
@@ -81,7 +68,7 @@ Json list_curves(const HexMesh& mesh) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < curves.size(); ++i)
-    list.push_back({{"name", curve_name(mesh, CurveId(i))},
+    list.push_back({{"name", set_name(mesh, SetKind::Curve, CurveId(i).value())},
                     {"edges", curves[i].num_edges},
                     {"length", curves[i].length}});
   return list;
@@ -99,7 +86,7 @@ Json list_regions(const HexMesh& mesh, const std::vector<std::int32_t>& tags) {
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < tags.size(); ++i)
-    list.push_back({{"name", region_name(mesh, tags[i])},
+    list.push_back({{"name", set_name(mesh, SetKind::Region, tags[i])},
                     {"tag", tags[i]},
                     {"hexes", counts[i]},
                     {"volume", volumes[i]}});
