@@ -4,11 +4,13 @@
 // refines where the fit missed).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
+#include "hexwright/curving/curve_mesh.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
 #include "hexwright/grid/complete.h"
@@ -28,6 +30,9 @@ struct MeshOptions {
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;
+  /// Of the elements: 2 gives edges nodes on the surface (see curving/curve_mesh.h), and puts the
+  /// vertices of curved patches there.
+  int order = 1;
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -81,7 +86,8 @@ struct MeshResult {
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
-  std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
+  std::optional<CurvingReport> curving;  ///< of a mesh of second order
+  std::vector<StageRecord> stages;       ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;

@@ -30,6 +30,8 @@ std::string sizing_to_json(const SizingResult& sizing);
 std::string complete_to_json(const CompleteReport& complete);
 std::string dual_to_json(const DualReport& dual);
 std::string fit_to_json(const FitReport& fit);
+/// A line or two for people.
+std::string curving_to_text(const CurvingReport& curving);
 /// Tets count from 1 in it, as in the files.
 std::string polycube_to_json(const PolycubeReport& polycube);
 
