@@ -16,14 +16,14 @@ inline constexpr Color kLineColor = {0.10F, 0.11F, 0.14F};
 
 struct ShadedQuad {
   std::array<ScreenPoint, 4> corners;
-  Color base_color;      ///< without light
   Color color;           ///< lit
   Vec3 normal;           ///< towards the eye, in the camera's frame
   float line_share = 0;  ///< how dark its edges are drawn
   bool is_back = false;  ///< seen from inside its hex; loses against a front face at equal depth
-  std::uint8_t line_sides = 0xf;  ///< bits of sides (k to k + 1) that are edges
-  std::uint8_t bold_sides = 0;    ///< those among them that are drawn wider and fully
+  std::uint8_t bold_sides = 0;  ///< bits of sides (k to k + 1) drawn wider and fully
   Color line_color = kLineColor;
+  std::uint8_t line_sides = 0xf;  ///< bits of sides that are edges, and not the border of a part
+  Color base_color = {};          ///< without light
 };
 
 /// Colours with the depth and normal of what is seen at each pixel's middle.

@@ -1,7 +1,6 @@
 // Meshes of second order come back from every format that has them.
 #include <algorithm>
 #include <map>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -15,17 +14,8 @@
 namespace hexwright {
 namespace {
 
+using test::curved_box;
 using test::TempFolder;
-
-/// No two edges have the same offset from their chord.
-HexMesh curved_box() {
-  HexMesh mesh = test::named_box();
-  mesh.mid_nodes = make_straight_mid_nodes(mesh);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> offset(-0.05, 0.05);
-  for (Vec3& p : mesh.mid_nodes->edges) p += {offset(random), offset(random), offset(random)};
-  return mesh;
-}
 
 using Key = std::array<long, 3>;
 Key key_of(const Vec3& p) {
