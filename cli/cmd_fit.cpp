@@ -43,7 +43,7 @@ void run(const FitCommand& cmd, Program& program) {
     return stage;
   });
   const FitResult& result = fitted.fit;
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(fitted));
   if (result.mesh.num_hexes() == 0) {
     program.console.fail(cmd.hexes +
                          ": no hex lies inside the surface; the mesh and the surface "

@@ -9,24 +9,27 @@ def outer(angle):
     """Where the ray from the bore's middle leaves the bracket: half a circle, then a rectangle."""
     x, y = math.cos(angle), math.sin(angle)
     if x >= -1e-12:
-        return RADIUS * x, RADIUS * y
-    scale = min(LENGTH / -x, RADIUS / abs(y) if abs(y) > 1e-12 else math.inf)
-    return scale * x, scale * y
+        scale = RADIUS
+    else:
+        scale = min(LENGTH / -x, RADIUS / abs(y) if abs(y) > 1e-12 else math.inf)
+    return rounded(scale * x), rounded(scale * y)
+
+
+def rounded(x):
+    return round(x, 9) + 0.0
 
 
 def main():
     corner = math.atan2(RADIUS, -LENGTH)
     angles = sorted({round(2 * math.pi * k / 144 - math.pi, 12) for k in range(144)} | {corner, -corner})
-    groups = {}
-    points = []
+    groups, points = {}, {}
 
     def quad(name, *corners):
-        points.extend(corners)
-        groups.setdefault(name, []).append(len(points) - 3)
+        groups.setdefault(name, []).append([points.setdefault(p, len(points) + 1) for p in corners])
 
     for a, b in zip(angles, angles[1:] + [angles[0] + 2 * math.pi]):
         (ax, ay), (bx, by) = outer(a), outer(b)
-        (cx, cy), (dx, dy) = ((BORE * math.cos(t), BORE * math.sin(t)) for t in (a, b))
+        (cx, cy), (dx, dy) = ((rounded(BORE * math.cos(t)), rounded(BORE * math.sin(t))) for t in (a, b))
         is_end = max(ax, bx) < -LENGTH + 1e-9
         quad("support" if is_end else "rim", (ax, ay, 0), (bx, by, 0), (bx, by, THICKNESS), (ax, ay, THICKNESS))
         is_pulled = math.cos((a + b) / 2) > 0
@@ -36,10 +39,10 @@ def main():
     with open(sys.argv[1], "w") as out:
         for x, y, z in points:
             out.write(f"v {x:.12g} {y:.12g} {z:.12g}\n")
-        for name, firsts in groups.items():
+        for name, quads in groups.items():
             out.write(f"g {name}\n")
-            for i in firsts:
-                out.write(f"f {i} {i + 1} {i + 2} {i + 3}\n")
+            for quad_points in quads:
+                out.write("f {} {} {} {}\n".format(*quad_points))
 
 
 if __name__ == "__main__":

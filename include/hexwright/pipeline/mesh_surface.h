@@ -29,7 +29,7 @@ struct MeshOptions {
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;
+  FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
   /// Of the elements: 2 gives edges nodes on the surface (see curving/curve_mesh.h), and puts the
   /// vertices of curved patches there.
   int order = 1;

@@ -249,7 +249,11 @@ std::string complete_to_json(const CompleteReport& complete) {
   return to_text(describe_complete(complete));
 }
 std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
-std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+std::string fit_to_json(const FitStageResult& fit) {
+  Json json = describe_fit(fit.fit.report);
+  if (fit.curving) json["curving"] = describe_curving(*fit.curving);
+  return to_text(json);
+}
 std::string curving_to_text(const CurvingReport& c) {
   std::string text = fmt::format("  curved     {} of {} edges on the surface, by {:.4g} at most\n",
                                  c.num_curved, c.num_surface_edges, c.max_offset);
