@@ -48,8 +48,11 @@ void run(const MeshCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.input);
   const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  // Grid files hold one grid, and have no axes of their own.
+  if (!cmd.grid.empty()) {
+    options.target.placement = Placement::AsGiven;
+    options.gap = 0;
+  }
   load_features(cmd.features, as_read, options.target.features);
   const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
   MeshResult result =

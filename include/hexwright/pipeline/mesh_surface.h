@@ -27,7 +27,11 @@ struct MeshOptions {
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;  ///< its tolerance is the sizing's (plan.h)
+  FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
+
+  /// Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by
+  /// itself, with vertices of its own: the gap stays. Negative: twice the tolerance; 0: never.
+  double gap = -1;
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -76,6 +80,8 @@ struct MeshResult {
   /// How the part was turned to lie along the lattice (see Placement): the rows are the axes, in
   /// the world, along which the cells of `grid` and `sizing.grid` stand on their frame's origin.
   Rotation pose;
+  /// Per hex: the depth of the grid's cell that its centre lies in; 0 outside of the grid.
+  IdVector<HexId, std::int8_t> levels;
   Grid grid;            ///< the completed grid of the best round
   SizingResult sizing;  ///< the a-priori grid
   CompleteReport complete;

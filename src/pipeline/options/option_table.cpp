@@ -105,6 +105,12 @@ OptionTable make_option_table(MeshOptions& options) {
        "given axes"},
       options.target.placement, kPlacementNames));
   append(table, prepare_rows(options.target.prepare));
+  table.push_back(share_row(
+      {"gap",
+       "Bodies nearer to each other than this share of the diagonal, or touching, are meshed each "
+       "by itself (inside only); 0 = never"},
+      options.gap));
+  table.back().fallback = "twice the tolerance";
   table.push_back(
       number_row({"transition-cost",
                   "What a cell beside another level counts more than one that is not, when levels "

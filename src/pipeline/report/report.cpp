@@ -31,6 +31,7 @@ Json describe_options(const MeshOptions& o) {
   const TargetOptions target = plan_target(o);
   return {{"parts", name_of(kPartsNames, target.prepare.parts)},
           {"min_part", target.prepare.min_part},
+          {"gap", o.gap},
           {"sizing", name_of(kSizingNames, o.sizing.sizing)},
           {"tolerance", o.sizing.tolerance},
           {"deviation_factor", o.sizing.deviation_factor},
