@@ -14,6 +14,7 @@
 #include "hexwright/quality/surface_distance.h"
 
 #include "polycube/boundary_map.h"
+#include "polycube/choose_lattice.h"
 #include "polycube/lattice.h"
 #include "polycube/map_back.h"
 #include "polycube/refine_misses.h"
@@ -44,15 +45,9 @@ void check_pair(const TetMesh& object, const TetMesh& polycube) {
                       "list the same tets in the same order");
 }
 
-std::size_t count_nonpositive(const TetMesh& mesh) {
-  std::size_t count = 0;
-  for (TetId t : mesh.tets.ids()) count += polycube::tet_det(polycube::tet_corners(mesh, t)) <= 0;
-  return count;
-}
-
 // Tets may be listed with negative volumes throughout; both meshes are then turned.
 void orient(TetMesh& object, TetMesh& polycube) {
-  if (2 * count_nonpositive(polycube) <= polycube.num_tets()) return;
+  if (2 * polycube::count_nonpositive(polycube) <= polycube.num_tets()) return;
   for (TetId t : polycube.tets.ids()) {
     std::swap(polycube.tets[t][2], polycube.tets[t][3]);
     std::swap(object.tets[t][2], object.tets[t][3]);
@@ -134,11 +129,7 @@ class Mesher {
   Attempt attempt(const Grid& sampled) {
     Attempt a;
     a.grid = complete(sampled, options_.complete, context_).grid;
-    const bool is_paired = options_.complete.pairing == Pairing::Blocks ||
-                           options_.complete.pairing == Pairing::Octree;
-    DualOptions dual_options;
-    dual_options.mode = is_paired ? DualMode::Blocks : DualMode::Sheets;
-    const DualResult dual = build_dual(a.grid, dual_options, context_);
+    const DualResult dual = polycube::make_dual(a.grid, options_, context_);
 
     auto mapped = polycube::map_back(dual.mesh, object_, lattice_, in_polycube_);
     a.num_bridged = mapped.num_bridged;
@@ -252,11 +243,15 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   PolycubeOptions options = given;
   const Similarity frame = place(object, options);
 
-  polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
+  if (options.target_hexes > 0) {
+    options.max_surface_error = 0;
+    options.max_stretch = polycube::find_stretch(object, polycube, options, context);
+  }
+  polycube::Lattice lattice = polycube::choose_lattice(object, polycube, options);
   PolycubeReport report;
   report.num_tets = object.num_tets();
-  report.num_nonpositive_object = count_nonpositive(object);
-  report.num_nonpositive_polycube = count_nonpositive(lattice.tets);
+  report.num_nonpositive_object = polycube::count_nonpositive(object);
+  report.num_nonpositive_polycube = polycube::count_nonpositive(lattice.tets);
   report_lattice(lattice, report);
   auto repair = polycube::repair_map(object, lattice, context);
   report.num_nonpositive_left = repair.num_nonpositive;

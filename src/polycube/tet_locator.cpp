@@ -41,6 +41,12 @@ TriMesh all_facets(const TetMesh& mesh, const std::vector<TetId>& tets) {
 
 double tet_det(const std::array<Vec3, 4>& p) { return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]); }
 
+std::size_t count_nonpositive(const TetMesh& mesh) {
+  std::size_t count = 0;
+  for (TetId t : mesh.tets.ids()) count += is_nonpositive(mesh, t);
+  return count;
+}
+
 // Each weight is the volume of the tet with one vertex replaced by p. Taken as differences from p,
 // so that the weights of a point near a vertex keep their digits far from the origin.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& t, const Vec3& p) {

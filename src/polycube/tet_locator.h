@@ -60,6 +60,11 @@ inline std::array<Vec3, 4> tet_corners(const TetMesh& mesh, TetId t) {
   return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]], mesh.positions[v[3]]};
 }
 
+inline bool is_nonpositive(const TetMesh& mesh, TetId t) {
+  return !(tet_det(tet_corners(mesh, t)) > 0);
+}
+std::size_t count_nonpositive(const TetMesh& mesh);
+
 /// The combination's place in a mesh of the same connectivity.
 inline Vec3 interpolate(const TetMesh& mesh, const TetPoint& at) {
   Vec3 p;
