@@ -66,9 +66,14 @@ struct PolycubeReport {
   std::size_t num_bridged =
       0;  ///< vertices located outside every positive tet, taken to the nearest
   std::size_t num_inverted_mapped = 0;  ///< hexes not positive right after mapping back
-  int num_rounds = 0;                   ///< meshes made; the best of them is the result
-  double max_distance = 0;              ///< two-way, share of the diagonal; 0 when not measured
-  std::vector<FoldedHex> folded;        ///< hexes of the result that are not positive
+  std::size_t num_off_edges = 0;  ///< vertices let off the polycube's edges so that no hex inverts
+  std::size_t num_off_surface = 0;  ///< boundary vertices left off the surface for that by more
+                                    ///< than a third of max_surface_error
+  double max_off_surface = 0;       ///< of them, share of the diagonal
+  Vec3 farthest_off;                ///< the farthest of them
+  int num_rounds = 0;               ///< meshes made; the best of them is the result
+  double max_distance = 0;          ///< two-way, share of the diagonal; 0 when not measured
+  std::vector<FoldedHex> folded;    ///< hexes of the result that are not positive
   std::vector<std::string> warnings;
 
   void to_world(const Similarity& frame);
