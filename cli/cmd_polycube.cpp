@@ -125,8 +125,11 @@ void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
 void add_polycube_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<PolycubeCommand>();
   CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
-  sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
-  sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
+  sub->add_option("object", cmd->object,
+                  "Tet or hex mesh of the object: .mesh, .vtk, .vtu, .msh or .inp")
+      ->required();
+  sub->add_option("polycube", cmd->polycube, "The same elements, deformed to a polycube")
+      ->required();
   add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);

@@ -36,7 +36,7 @@ void check_pair(const TetMesh& object, const TetMesh& polycube) {
                     " tets; both must come from one tet mesh, with other positions only");
   if (object.num_tets() == 0)
     throw Error(ErrorCode::BadGeometry,
-                "the meshes hold no tetrahedra; write them with volume cells");
+                "the meshes hold no elements; write them with volume cells");
   for (TetId t : object.tets.ids())
     if (object.tets[t] != polycube.tets[t])
       throw Error(ErrorCode::BadGeometry,
