@@ -178,10 +178,15 @@ OptionTable make_option_table(ImproveOptions& options) {
 
 OptionTable make_option_table(PolycubeOptions& options) {
   OptionTable table = {
-      share_row({"max-stretch",
-                 "A cell is split while two object points in it are farther apart than this share "
-                 "of the diagonal"},
-                options.max_stretch),
+      share_row(
+          {"max-stretch",
+           "A cell is split while it is longer on the object than this share of the diagonal: "
+           "along its edges, or between two of the object's vertices in it"},
+          options.max_stretch),
+      count_row({"cells",
+                 "Hexes wanted, about: the stretch follows from it, and the surface ends up where "
+                 "that leads; 0 = off"},
+                options.target_hexes),
       share_row({"max-surface-error",
                  "Cells are split where the mesh would miss the surface by more than this share of "
                  "the diagonal, and again where it does"},
@@ -194,8 +199,10 @@ OptionTable make_option_table(PolycubeOptions& options) {
                 "Put a layer of hexes under the boundary: for polycube edges where the object is "
                 "smooth"},
                options.pad),
-      number_row({"spacing", "Edge of a lattice cube in polycube units; 0 derives it"},
-                 options.spacing, 0, kNoLimit),
+      number_row(
+          {"spacing",
+           "Edge of a lattice cube in polycube units, everywhere; 0 suits the lattice to the map"},
+          options.spacing, 0, kNoLimit),
       whole_row({"min-level", "Cells are at least this deep"}, options.min_level, 0, 12),
       whole_row({"max-level", "No cell is deeper"}, options.max_level, 0, 12),
       count_row({"max-cells", "Budget of cells"}, options.max_cells),
