@@ -42,6 +42,8 @@ class MeshOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    order: int
+    """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
 
@@ -94,6 +96,8 @@ class FitOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    order: int
+    """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
 

@@ -91,6 +91,16 @@ void append(BoundaryLabels& to, const BoundaryLabels& from, std::size_t verts) {
   append_names(to.curve_names, from.curve_names, curves);
 }
 
+void append(MidNodes& to, const MidNodes& from) {
+  const std::size_t edges = to.edges.size();
+  for (auto hex_edges : from.hex_to_edge) {
+    for (EdgeId& e : hex_edges) e = EdgeId(e.index() + edges);
+    to.hex_to_edge.push_back(hex_edges);
+  }
+  for (const Vec3& p : from.edges) to.edges.push_back(p);
+  for (const auto& inner : from.inner) to.inner.push_back(inner);
+}
+
 /// A region per part.
 void append(HexMesh& to, const HexMesh& from, std::int32_t region, const std::string& name) {
   const std::size_t verts = to.num_verts();
@@ -101,6 +111,12 @@ void append(HexMesh& to, const HexMesh& from, std::int32_t region, const std::st
     to.region.push_back(region);
   }
   append(to.labels, from.labels, verts);
+  if (verts == 0)
+    to.mid_nodes = from.mid_nodes;
+  else if (to.mid_nodes && from.mid_nodes)
+    append(*to.mid_nodes, *from.mid_nodes);
+  else
+    to.mid_nodes.reset();
   to.region_names.resize(static_cast<std::size_t>(region) + 1);
   to.region_names.back() = name;
 }
@@ -148,11 +164,21 @@ void append(FitReport& to, FitReport&& from, std::size_t hexes, std::size_t curv
   add(to.processor_seconds, from.processor_seconds);
 }
 
+void append(CurvingReport& to, const CurvingReport& from) {
+  to.num_edges += from.num_edges;
+  to.num_surface_edges += from.num_surface_edges;
+  to.num_curved += from.num_curved;
+  to.num_unmatched += from.num_unmatched;
+  to.max_offset = std::max(to.max_offset, from.max_offset);
+  to.held_back.insert(to.held_back.end(), from.held_back.begin(), from.held_back.end());
+}
+
 void append_records(MeshResult& all, MeshResult&& part) {
   const BoundaryLabels& labels = all.mesh.labels;
   append(all.fit, std::move(part.fit), all.mesh.num_hexes(),
          count_ids(labels.edges, &LabeledEdge::curve, labels.curve_names.size()));
   for (const std::int8_t level : part.levels) all.levels.push_back(level);
+  if (all.curving && part.curving) append(*all.curving, *part.curving);
   add(all.stages, part.stages);
   all.rounds.insert(all.rounds.end(), part.rounds.begin(), part.rounds.end());
   all.num_rounds += part.num_rounds;

@@ -66,6 +66,7 @@ void check_after_mapping(const Similarity& frame, MeshResult& result) {
 void take_round(Round&& round, MeshResult& result) {
   result.mesh = std::move(round.fit.mesh);
   result.fit = std::move(round.fit.report);
+  result.curving = std::move(round.curving);
   result.grid = std::move(round.grid);
   result.verdict = std::move(round.verdict);
   result.complete = std::move(round.complete);
@@ -145,6 +146,7 @@ void MeshResult::to_world(const Similarity& frame) {
   grid.frame.to_world(frame);
   sizing.to_world(frame);
   fit.to_world(frame);
+  if (curving) curving->to_world(frame);
 }
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {

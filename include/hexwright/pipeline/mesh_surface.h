@@ -4,11 +4,13 @@
 // refines where the fit missed).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
+#include "hexwright/curving/curve_mesh.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
 #include "hexwright/grid/complete.h"
@@ -28,6 +30,9 @@ struct MeshOptions {
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
+  /// Of the elements: 2 gives edges nodes on the surface (see curving/curve_mesh.h), and puts the
+  /// vertices of curved patches there.
+  int order = 1;
 
   /// Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by
   /// itself, with vertices of its own: the gap stays. Negative: twice the tolerance; 0: never.
@@ -87,7 +92,8 @@ struct MeshResult {
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
-  std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
+  std::optional<CurvingReport> curving;  ///< of a mesh of second order
+  std::vector<StageRecord> stages;       ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;

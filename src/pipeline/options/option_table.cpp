@@ -49,6 +49,13 @@ NamedOption feature_angle_row(FeatureOptions& options) {
                      options.crease_angle, 1, 180);
 }
 
+NamedOption order_row(int& order) {
+  return whole_row(
+      {"order",
+       "Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it"},
+      order, 1, 2);
+}
+
 OptionTable fit_rows(FitOptions& options) {
   return {
       choice_row(
@@ -125,6 +132,7 @@ OptionTable make_option_table(MeshOptions& options) {
   table.push_back(count_row({"max-hexes", "Budget of the background mesh"}, options.max_hexes));
   append(table, complete_rows(options.complete));
   append(table, fit_rows(options.fit));
+  table.push_back(order_row(options.order));
   table.push_back(feature_angle_row(options.target.features));
   return table;
 }
@@ -160,6 +168,7 @@ OptionTable make_option_table(FitStageOptions& options) {
   OptionTable table = {flag_row({"no-carve", "The mesh already stands for the object: only fit it"},
                                 options.fit.do_carve, false)};
   append(table, fit_rows(options.fit));
+  table.push_back(order_row(options.order));
   table.push_back(share_row(
       {"tolerance",
        "How far vertices may leave the surface for the least scaled Jacobian's sake, as a "
