@@ -14,6 +14,7 @@
 #include "hexwright/geometry/patch_rules.h"
 #include "hexwright/io/feature_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 
 namespace hexwright::cli {
 namespace {
@@ -136,13 +137,19 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
       });
 }
 
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program,
+                     const CadModel* model) {
   if (rules.empty()) return std::move(surface);
   std::vector<PatchRule> parsed;
   for (const std::string& rule : rules) {
     parsed.push_back(parse_patch_rule(rule));
-    for (PatchCondition& condition : parsed.back().conditions)
+    for (PatchCondition& condition : parsed.back().conditions) {
       if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
+      if (condition.kind == PatchCondition::Kind::CadFace && !model)
+        throw Error(ErrorCode::BadArgument,
+                    "--patch " + rule + " asks for a face of a CAD file; the surface is none");
+    }
+    if (model) find_faces(*model, parsed.back());
   }
   RuledSurface ruled = apply_patch_rules(surface, parsed);
   for (std::size_t r = 0; r < rules.size(); ++r)
@@ -155,6 +162,15 @@ TriMesh load_surface(const std::string& path, Program& program) {
   SurfaceFile file = read_surface(path);
   for (const std::string& w : file.warnings) program.console.warn(path + ": " + w);
   return std::move(file.mesh);
+}
+
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program) {
+  CadInput input{read_cad(path, read_options_for(options)), {}};
+  for (const std::string& w : input.model.warnings) program.console.warn(path + ": " + w);
+  TriMesh faces = name_patches(faces_as_groups(input.model), rules, program, &input.model);
+  input.surface = make_cad_surface(input.model, std::move(faces));
+  return input;
 }
 
 }  // namespace hexwright::cli

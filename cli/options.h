@@ -5,6 +5,8 @@
 
 #include <CLI/App.hpp>
 
+#include "hexwright/cad/cad_model.h"
+#include "hexwright/cad/cad_surface.h"
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/io/surface_io.h"
 #include "hexwright/pipeline/option_table.h"
@@ -48,8 +50,18 @@ void add_format_option(CLI::App& cmd, std::string& format);
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
 
 /// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
-/// meets.
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
+/// meets. Rules that ask for faces need the model that the surface is of.
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program,
+                     const CadModel* model = nullptr);
+
+/// A CAD file's model and the surface that it is meshed by.
+struct CadInput {
+  CadModel model;
+  CadSurface surface;
+};
+/// Reads a CAD file for a mesh with these options, and names its patches. Prints the warnings.
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program);
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 

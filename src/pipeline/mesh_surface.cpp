@@ -11,6 +11,7 @@
 
 #include "base/stage_log.h"
 #include "pipeline/loop/budgets.h"
+#include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
 
 namespace hexwright {
@@ -108,6 +109,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, cons
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  if (options.exact) result.exact = put_on_exact_shape(input, best);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   result.to_world(target.frame);

@@ -4,6 +4,8 @@
 // refines where the fit missed).
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "hexwright/base/stage_record.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
+#include "hexwright/geometry/exact_shape.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
@@ -28,6 +31,9 @@ struct MeshOptions {
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;
+  /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
+  /// boundary vertices are put onto it in the end. May be null.
+  std::shared_ptr<const ExactShape> exact;
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -69,6 +75,16 @@ struct RoundRecord {
   double seconds = 0;
 };
 
+/// How the boundary vertices came onto the exact shape.
+struct ExactReport {
+  std::size_t num_verts = 0;  ///< on the boundary
+  std::size_t num_exact = 0;  ///< on the exact shape in the end
+  std::size_t num_short = 0;  ///< stopped on the way there, for the hexes around
+  /// Farthest from where it belongs, of those two, before and after; shares of the diagonal. The
+  /// rest of the vertices has no place on the exact shape within a third of an edge.
+  double max_before = 0, max_after = 0;
+};
+
 struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
@@ -81,7 +97,8 @@ struct MeshResult {
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
-  std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
+  std::optional<ExactReport> exact;  ///< with MeshOptions::exact
+  std::vector<StageRecord> stages;   ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;

@@ -127,6 +127,14 @@ Json describe_fit(const FitReport& f) {
   return fit;
 }
 
+Json describe_exact(const ExactReport& e) {
+  return {{"vertices", e.num_verts},
+          {"exact", e.num_exact},
+          {"short", e.num_short},
+          {"max_before", e.max_before},
+          {"max_after", e.max_after}};
+}
+
 Json describe_folded(const std::vector<FoldedHex>& folded) {
   Json json = Json::array();
   for (const FoldedHex& f : folded)
@@ -217,6 +225,8 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
   SetTable table = make_set_table(result.mesh);
   name_by_place(result.mesh, table);
   report["sets"] = Json::parse(sets_to_json(summarize_sets(result.mesh, table)));
+  if (result.exact) report["exact_boundary"] = describe_exact(*result.exact);
+  if (run.cad) report["cad"] = Json::parse(cad_to_json(*run.cad));
   for (const ChangedName& name : run.changed_names)
     report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);
