@@ -184,8 +184,7 @@ class ModelBuilder {
     for (std::size_t i = 0; i < samples.size(); ++i)
       if (!node_to_vert[i].is_valid())
         node_to_vert[i] = model_.surface.positions.push_back(samples[i].point);
-    const bool is_turned = (face.Orientation() == TopAbs_REVERSED) !=
-                           (place.Transformation().VectorialPart().Determinant() < 0);
+    const bool is_turned = face.Orientation() == TopAbs_REVERSED;
     for (int i = 1; i <= mesh->NbTriangles(); ++i) {
       std::array<int, 3> n;
       mesh->Triangle(i).Get(n[0], n[1], n[2]);

@@ -227,7 +227,6 @@ void read_step(const std::filesystem::path& path, const std::string& bytes, Docu
     refuse("the file ends before its last line, END-ISO-10303-21; copy or export it again");
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   STEPCAFControl_Reader reader;
   reader.SetColorMode(true);
   reader.SetNameMode(true);
