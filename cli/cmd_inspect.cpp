@@ -28,7 +28,7 @@ void run(const InspectCommand& cmd, Program& program) {
   std::optional<CadSummary> cad;
   if (is_cad_file(cmd.input)) {
     const CadInput input = load_cad(cmd.input, {}, options, program);
-    options = options_for_cad(options, input.model, input.surface);
+    options = options_for_cad(options, input);
     cad = summarize_cad(input.model, input.surface);
     surface = input.surface.surface;
   } else {

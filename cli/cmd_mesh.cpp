@@ -58,7 +58,6 @@ void run(const MeshCommand& cmd, Program& program) {
     cad = load_cad(cmd.input, cmd.patches, options, program);
     surface = cad->surface.surface;
     load_features(cmd.features, surface, options.target.features);
-    options = options_for_cad(options, cad->model, cad->surface);
   } else {
     surface = load_surface(cmd.input, program);
     load_features(cmd.features, surface, options.target.features);
@@ -66,10 +65,10 @@ void run(const MeshCommand& cmd, Program& program) {
   }
   // Grid files have no axes of their own.
   if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
-  MeshResult result =
-      naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
+  MeshResult result = naming_file(cmd.input, [&] {
+    return cad ? mesh_cad(*cad, options, context) : mesh_surface(surface, options, context);
+  });
   program.console.clear_progress();
-  if (cad && options.fit.carve.side == Side::Inside) name_solids(cad->model, result.mesh);
   if (cmd.is_strict)
     result.failures.insert(result.failures.end(), result.warnings.begin(), result.warnings.end());
 

@@ -14,7 +14,6 @@
 #include "hexwright/geometry/patch_rules.h"
 #include "hexwright/io/feature_io.h"
 #include "hexwright/io/mesh_io.h"
-#include "hexwright/pipeline/mesh_cad.h"
 
 namespace hexwright::cli {
 namespace {
@@ -137,24 +136,31 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
       });
 }
 
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program,
-                     const CadModel* model) {
-  if (rules.empty()) return std::move(surface);
-  std::vector<PatchRule> parsed;
-  for (const std::string& rule : rules) {
-    parsed.push_back(parse_patch_rule(rule));
-    for (PatchCondition& condition : parsed.back().conditions) {
+namespace {
+
+std::vector<PatchRule> read_rules(const std::vector<std::string>& texts, Program& program) {
+  std::vector<PatchRule> rules;
+  for (const std::string& text : texts) {
+    rules.push_back(parse_patch_rule(text));
+    for (PatchCondition& condition : rules.back().conditions)
       if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
-      if (condition.kind == PatchCondition::Kind::CadFace && !model)
-        throw Error(ErrorCode::BadArgument,
-                    "--patch " + rule + " asks for a face of a CAD file; the surface is none");
-    }
-    if (model) find_faces(*model, parsed.back());
   }
-  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  return rules;
+}
+
+void warn_unmatched(const std::vector<std::string>& rules, const std::vector<std::size_t>& matched,
+                    Program& program) {
   for (std::size_t r = 0; r < rules.size(); ++r)
-    if (ruled.num_matched[r] == 0)
+    if (matched[r] == 0)
       program.console.warn("--patch " + rules[r] + ": no part of the surface fits the rule");
+}
+
+}  // namespace
+
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+  if (rules.empty()) return std::move(surface);
+  RuledSurface ruled = apply_patch_rules(surface, read_rules(rules, program));
+  warn_unmatched(rules, ruled.num_matched, program);
   return std::move(ruled.surface);
 }
 
@@ -166,10 +172,10 @@ TriMesh load_surface(const std::string& path, Program& program) {
 
 CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
                   const MeshOptions& options, Program& program) {
-  CadInput input{read_cad(path, read_options_for(options)), {}};
-  for (const std::string& w : input.model.warnings) program.console.warn(path + ": " + w);
-  TriMesh faces = name_patches(faces_as_groups(input.model), rules, program, &input.model);
-  input.surface = make_cad_surface(input.model, std::move(faces));
+  CadModel model = read_cad(path, read_options_for(options));
+  for (const std::string& w : model.warnings) program.console.warn(path + ": " + w);
+  CadInput input = prepare_cad(std::move(model), read_rules(rules, program), options);
+  warn_unmatched(rules, input.num_matched, program);
   return input;
 }
 

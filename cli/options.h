@@ -5,10 +5,9 @@
 
 #include <CLI/App.hpp>
 
-#include "hexwright/cad/cad_model.h"
-#include "hexwright/cad/cad_surface.h"
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/option_table.h"
 
 #include "commands.h"
@@ -50,15 +49,9 @@ void add_format_option(CLI::App& cmd, std::string& format);
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
 
 /// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
-/// meets. Rules that ask for faces need the model that the surface is of.
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program,
-                     const CadModel* model = nullptr);
+/// meets.
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
 
-/// A CAD file's model and the surface that it is meshed by.
-struct CadInput {
-  CadModel model;
-  CadSurface surface;
-};
 /// Reads a CAD file for a mesh with these options, and names its patches. Prints the warnings.
 CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
                   const MeshOptions& options, Program& program);

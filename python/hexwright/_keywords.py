@@ -44,6 +44,8 @@ class MeshOptions(TypedDict, total=False):
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
+    tangent_edges: bool
+    """CAD files: edges where faces meet smoothly are features too, and every face is a patch of its own. Default: false."""
 
 
 class GridOptions(TypedDict, total=False):

@@ -1,5 +1,7 @@
+// Options and names from a CAD model.
 #include "hexwright/pipeline/mesh_cad.h"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -7,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "hexwright/cad/cad_shape.h"
+#include "hexwright/geometry/surface_names.h"
 #include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
@@ -18,6 +21,10 @@ namespace {
 constexpr double kDeflectionShare = 0.1;
 /// Hexes asked for the solids they lie in, per connected part of the mesh.
 constexpr std::size_t kProbes = 400;
+
+/// Quads between vertices on a curved surface are about so much farther from it in the mean than
+/// balanced ones; to ask for the same mean would double the hexes of rounded parts.
+constexpr double kMeanOnShape = 2;
 
 using SolidSet = std::set<CadSolidId>;
 
@@ -68,29 +75,7 @@ std::string name_of(const CadModel& model, const SolidSet& solids) {
   return name;
 }
 
-}  // namespace
-
-CadReadOptions read_options_for(const MeshOptions& options) {
-  CadReadOptions read;
-  read.deflection = kDeflectionShare * options.sizing.tolerance;
-  // An angle that was asked for counts; the default is for triangles, whose angles tell less.
-  const double asked = options.target.features.crease_angle;
-  if (asked != FeatureOptions{}.crease_angle) read.sharp_angle = asked;
-  return read;
-}
-
-MeshOptions options_for_cad(const MeshOptions& wishes, const CadModel& model,
-                            const CadSurface& surface) {
-  MeshOptions options = wishes;
-  use_cad_features(surface, options.target.features);
-  options.exact = make_exact_shape(model, surface);
-  // The loop must see the mesh as it will be, on the shape, not balanced about it; around poor
-  // hexes vertices leave it and come back as far as the hexes allow.
-  options.fit.lifts_off_surface = options.fit.patch_verts == PatchVerts::Balanced;
-  options.fit.patch_verts = PatchVerts::OnSurface;
-  return options;
-}
-
+/// Gives hexes the region of their solid.
 void name_solids(const CadModel& model, HexMesh& mesh) {
   if (model.solids.size() == 1) {
     const std::string& name = model.solids[CadSolidId(0)].name;
@@ -110,6 +95,75 @@ void name_solids(const CadModel& model, HexMesh& mesh) {
     if (is_new) mesh.region_names.push_back(name_of(model, set));
     for (const HexId h : part) mesh.region[h] = found->second;
   }
+}
+
+/// Whether a point lies on an edge's polyline, within the tolerance.
+bool is_on(const CadModel& model, const CadEdge& edge, const Vec3& p, double tolerance) {
+  const auto& x = model.surface.positions;
+  for (std::size_t k = 1; k < edge.verts.size(); ++k) {
+    const Vec3 a = x[edge.verts[k - 1]], along = x[edge.verts[k]] - a;
+    const double length_sq = norm_sq(along);
+    const double share = length_sq > 0 ? std::clamp(dot(p - a, along) / length_sq, 0.0, 1.0) : 0;
+    if (norm_sq(a + share * along - p) <= tolerance * tolerance) return true;
+  }
+  return false;
+}
+
+/// Curves all of whose mesh edges lie on an edge with a name have that name.
+void name_curves(const CadModel& model, double tolerance, HexMesh& mesh) {
+  BoundaryLabels& labels = mesh.labels;
+  std::map<CurveId, std::vector<Vec3>> points;
+  for (const LabeledEdge& e : labels.edges)
+    points[e.curve].push_back(0.5 * (mesh.positions[e.verts[0]] + mesh.positions[e.verts[1]]));
+  for (const CadEdge& edge : model.edges) {
+    if (edge.name.empty()) continue;
+    for (const auto& [curve, on_curve] : points) {
+      const bool is_all = std::ranges::all_of(
+          on_curve, [&](const Vec3& p) { return is_on(model, edge, p, tolerance); });
+      if (!is_all) continue;
+      if (labels.curve_names.size() <= curve.index()) labels.curve_names.resize(curve.index() + 1);
+      labels.curve_names[curve] = edge.name;
+    }
+  }
+  number_repeated(labels.curve_names.raw());
+}
+
+}  // namespace
+
+CadReadOptions read_options_for(const MeshOptions& options) {
+  CadReadOptions read;
+  read.deflection = kDeflectionShare * options.sizing.tolerance;
+  // An angle that was asked for counts; the default is for triangles, whose angles tell less.
+  const double asked = options.target.features.crease_angle;
+  if (asked != FeatureOptions{}.crease_angle) read.sharp_angle = asked;
+  return read;
+}
+
+CadInput prepare_cad(CadModel model, std::vector<PatchRule> rules, const MeshOptions& options) {
+  for (PatchRule& rule : rules) find_faces(model, rule);
+  RuledSurface ruled = apply_patch_rules(faces_as_groups(model), rules);
+  CadSurface surface = make_cad_surface(model, std::move(ruled.surface), options.cad);
+  return {std::move(model), std::move(surface), std::move(ruled.num_matched)};
+}
+
+MeshOptions options_for_cad(const MeshOptions& wishes, const CadInput& input) {
+  MeshOptions options = wishes;
+  use_cad_features(input.surface, options.target.features);
+  options.exact = make_exact_shape(input.model, input.surface);
+  // The loop must see the mesh as it will be, on the shape, not balanced about it; around poor
+  // hexes vertices leave it and come back as far as the hexes allow.
+  options.fit.lifts_off_surface = options.fit.patch_verts == PatchVerts::Balanced;
+  options.fit.patch_verts = PatchVerts::OnSurface;
+  if (options.fit.lifts_off_surface) options.mean_share *= kMeanOnShape;
+  return options;
+}
+
+MeshResult mesh_cad(const CadInput& input, const MeshOptions& wishes, const Context& context) {
+  MeshResult result = mesh_surface(input.surface.surface, options_for_cad(wishes, input), context);
+  if (wishes.fit.carve.side == Side::Inside) name_solids(input.model, result.mesh);
+  const double diagonal = bounding_box(input.model.surface).diagonal();
+  name_curves(input.model, wishes.sizing.tolerance * diagonal, result.mesh);
+  return result;
 }
 
 }  // namespace hexwright

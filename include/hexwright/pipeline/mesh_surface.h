@@ -11,6 +11,7 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
+#include "hexwright/cad/cad_surface.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
 #include "hexwright/geometry/exact_shape.h"
@@ -31,6 +32,7 @@ struct MeshOptions {
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;
+  CadSurfaceOptions cad;  ///< of CAD files: see mesh_cad()
   /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
   /// boundary vertices are put onto it in the end. May be null.
   std::shared_ptr<const ExactShape> exact;

@@ -16,8 +16,10 @@ namespace {
 
 /// Of the edges around: what is farther away belongs to something else, as where parts were united
 /// and the exact shape has no curve.
-constexpr double kFarthest = 0.3;
+constexpr double kFarthest = 0.5;
 constexpr int kSweeps = 3, kHalvings = 4;
+/// What being exact may cost the hexes around, where the mesh has no worse.
+constexpr double kFloor = 0.4;
 /// Closer than this, in unit coordinates, is on the shape.
 constexpr double kArrived = 1e-10;
 
@@ -43,6 +45,7 @@ class ExactMover {
   ExactReport run() {
     ExactReport report;
     find_goals();
+    floor_ = std::max(kFloor, least_quality());
     report.max_before = largest_miss();
     for (int sweep = 0; sweep < kSweeps; ++sweep)
       for (const VertId v : goal_.ids())
@@ -99,6 +102,11 @@ class ExactMover {
     return found ? near(found->point) : std::nullopt;
   }
 
+  double least_quality() const {
+    const auto quality = compute_scaled_jacobians(mesh_);
+    return *std::min_element(quality.begin(), quality.end());
+  }
+
   double largest_miss() const {
     double largest = 0;
     for (const VertId v : goal_.ids())
@@ -117,10 +125,9 @@ class ExactMover {
   bool try_move(VertId v, const Vec3& there) {
     const IdSpan<VertId, const Vec3> positions(mesh_.positions);
     const Vec3 origin = mesh_.positions[v];
-    const double goal = input_.plan.fit.lift_goal;
     const double before = relax::min_scaled_jacobian_around(origin, stars_[v], positions);
     const double after = relax::min_scaled_jacobian_around(there, stars_[v], positions);
-    if (!(after > 0 && after >= std::min(before - 1e-12, goal))) return false;
+    if (!(after > 0 && after >= std::min(before - 1e-12, floor_))) return false;
     const int unproven = count_unproven(v);
     mesh_.positions[v] = there;
     if (count_unproven(v) <= unproven) return true;
@@ -137,6 +144,7 @@ class ExactMover {
 
   const RoundInput& input_;
   HexMesh& mesh_;
+  double floor_ = 0;
   IdVector<VertId, Place> place_;
   IdVector<VertId, Vec3> normal_;   ///< outwards, not of unit length
   IdVector<VertId, double> reach_;  ///< the shortest boundary edge at a vertex

@@ -48,6 +48,7 @@ Json describe_options(const MeshOptions& o) {
           {"vertices", name_of(kPatchVertsNames, o.fit.patch_verts)},
           {"placement", name_of(kPlacementNames, target.placement)},
           {"feature_angle_deg", degrees(target.features.crease_angle)},
+          {"tangent_edges", o.cad.split_tangent},
           {"feature_edges_given", target.features.extra_segments.size()},
           {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
