@@ -31,7 +31,7 @@ struct MeshOptions {
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;
+  FitOptions fit;  ///< its tolerance is the sizing's (plan.h)
   CadSurfaceOptions cad;  ///< of CAD files: see mesh_cad()
   /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
   /// boundary vertices are put onto it in the end. May be null.
