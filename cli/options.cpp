@@ -159,7 +159,14 @@ void warn_unmatched(const std::vector<std::string>& rules, const std::vector<std
 
 TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
   if (rules.empty()) return std::move(surface);
-  RuledSurface ruled = apply_patch_rules(surface, read_rules(rules, program));
+  const std::vector<PatchRule> parsed = read_rules(rules, program);
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    for (const PatchCondition& condition : parsed[r].conditions)
+      if (condition.kind == PatchCondition::Kind::CadFace)
+        throw Error(
+            ErrorCode::BadArgument,
+            "--patch " + rules[r] + " asks for a face of a CAD file, which the input is not");
+  RuledSurface ruled = apply_patch_rules(surface, parsed);
   warn_unmatched(rules, ruled.num_matched, program);
   return std::move(ruled.surface);
 }

@@ -109,17 +109,28 @@ bool is_on(const CadModel& model, const CadEdge& edge, const Vec3& p, double tol
   return false;
 }
 
+/// Whether a mesh edge stands for a piece of an edge: its ends are on it, its middle as near as the
+/// arc over a chord is.
+bool stands_for(const CadModel& model, const CadEdge& edge, const std::array<Vec3, 2>& ends,
+                double tolerance) {
+  constexpr double kSag = 0.25;
+  const double sag = kSag * distance(ends[0], ends[1]);
+  return is_on(model, edge, ends[0], tolerance) && is_on(model, edge, ends[1], tolerance) &&
+         is_on(model, edge, 0.5 * (ends[0] + ends[1]), tolerance + sag);
+}
+
 /// Curves all of whose mesh edges lie on an edge with a name have that name.
 void name_curves(const CadModel& model, double tolerance, HexMesh& mesh) {
   BoundaryLabels& labels = mesh.labels;
-  std::map<CurveId, std::vector<Vec3>> points;
+  std::map<CurveId, std::vector<std::array<Vec3, 2>>> pieces;
   for (const LabeledEdge& e : labels.edges)
-    points[e.curve].push_back(0.5 * (mesh.positions[e.verts[0]] + mesh.positions[e.verts[1]]));
+    pieces[e.curve].push_back({mesh.positions[e.verts[0]], mesh.positions[e.verts[1]]});
   for (const CadEdge& edge : model.edges) {
     if (edge.name.empty()) continue;
-    for (const auto& [curve, on_curve] : points) {
-      const bool is_all = std::ranges::all_of(
-          on_curve, [&](const Vec3& p) { return is_on(model, edge, p, tolerance); });
+    for (const auto& [curve, of_curve] : pieces) {
+      const bool is_all = std::ranges::all_of(of_curve, [&](const std::array<Vec3, 2>& ends) {
+        return stands_for(model, edge, ends, tolerance);
+      });
       if (!is_all) continue;
       if (labels.curve_names.size() <= curve.index()) labels.curve_names.resize(curve.index() + 1);
       labels.curve_names[curve] = edge.name;

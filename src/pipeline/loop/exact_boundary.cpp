@@ -18,8 +18,8 @@ namespace {
 /// and the exact shape has no curve.
 constexpr double kFarthest = 0.5;
 constexpr int kSweeps = 3, kHalvings = 4;
-/// What being exact may cost the hexes around, where the mesh has no worse.
-constexpr double kFloor = 0.4;
+/// Hexes around may fall to the mesh's least scaled Jacobian, within these bounds.
+constexpr double kLeastFloor = 0.4, kMostFloor = 0.5;
 /// Closer than this, in unit coordinates, is on the shape.
 constexpr double kArrived = 1e-10;
 
@@ -45,7 +45,7 @@ class ExactMover {
   ExactReport run() {
     ExactReport report;
     find_goals();
-    floor_ = std::max(kFloor, least_quality());
+    floor_ = std::clamp(least_quality(), kLeastFloor, kMostFloor);
     report.max_before = largest_miss();
     for (int sweep = 0; sweep < kSweeps; ++sweep)
       for (const VertId v : goal_.ids())
