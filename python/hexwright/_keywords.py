@@ -46,6 +46,8 @@ class MeshOptions(TypedDict, total=False):
     """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
+    tangent_edges: bool
+    """CAD files: edges where faces meet smoothly are features too, and every face is a patch of its own. Default: false."""
 
 
 class GridOptions(TypedDict, total=False):

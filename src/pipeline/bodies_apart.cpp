@@ -173,11 +173,20 @@ void append(CurvingReport& to, const CurvingReport& from) {
   to.held_back.insert(to.held_back.end(), from.held_back.begin(), from.held_back.end());
 }
 
+void append(ExactReport& to, const ExactReport& from) {
+  to.num_verts += from.num_verts;
+  to.num_exact += from.num_exact;
+  to.num_short += from.num_short;
+  to.max_before = std::max(to.max_before, from.max_before);
+  to.max_after = std::max(to.max_after, from.max_after);
+}
+
 void append_records(MeshResult& all, MeshResult&& part) {
   const BoundaryLabels& labels = all.mesh.labels;
   append(all.fit, std::move(part.fit), all.mesh.num_hexes(),
          count_ids(labels.edges, &LabeledEdge::curve, labels.curve_names.size()));
   for (const std::int8_t level : part.levels) all.levels.push_back(level);
+  if (all.exact && part.exact) append(*all.exact, *part.exact);
   if (all.curving && part.curving) append(*all.curving, *part.curving);
   add(all.stages, part.stages);
   all.rounds.insert(all.rounds.end(), part.rounds.begin(), part.rounds.end());

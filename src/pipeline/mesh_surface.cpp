@@ -14,6 +14,7 @@
 #include "base/stage_log.h"
 #include "pipeline/bodies_apart.h"
 #include "pipeline/loop/budgets.h"
+#include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
 
 namespace hexwright {
@@ -106,6 +107,7 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  if (options.exact) result.exact = put_on_exact_shape(input, best);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   result.levels = find_levels(result.mesh, result.grid);

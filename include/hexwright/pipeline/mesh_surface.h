@@ -4,15 +4,18 @@
 // refines where the fit missed).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
+#include "hexwright/cad/cad_surface.h"
 #include "hexwright/curving/curve_mesh.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
+#include "hexwright/geometry/exact_shape.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
@@ -37,6 +40,10 @@ struct MeshOptions {
   /// Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by
   /// itself, with vertices of its own: the gap stays. Negative: twice the tolerance; 0: never.
   double gap = -1;
+  CadSurfaceOptions cad;  ///< of CAD files: see mesh_cad()
+  /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
+  /// boundary vertices are put onto it in the end. May be null.
+  std::shared_ptr<const ExactShape> exact;
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -78,6 +85,16 @@ struct RoundRecord {
   double seconds = 0;
 };
 
+/// How the boundary vertices came onto the exact shape.
+struct ExactReport {
+  std::size_t num_verts = 0;  ///< on the boundary
+  std::size_t num_exact = 0;  ///< on the exact shape in the end
+  std::size_t num_short = 0;  ///< stopped on the way there, for the hexes around
+  /// Farthest from where it belongs, of those two, before and after; shares of the diagonal. The
+  /// rest of the vertices has no place on the exact shape within a third of an edge.
+  double max_before = 0, max_after = 0;
+};
+
 struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
@@ -93,6 +110,7 @@ struct MeshResult {
   DualReport dual;
   FitReport fit;
   std::optional<CurvingReport> curving;  ///< of a mesh of second order
+  std::optional<ExactReport> exact;      ///< with MeshOptions::exact
   std::vector<StageRecord> stages;       ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

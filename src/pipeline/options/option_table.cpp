@@ -134,6 +134,10 @@ OptionTable make_option_table(MeshOptions& options) {
   append(table, fit_rows(options.fit));
   table.push_back(order_row(options.order));
   table.push_back(feature_angle_row(options.target.features));
+  table.push_back(flag_row({"tangent-edges",
+                            "CAD files: edges where faces meet smoothly are features too, and "
+                            "every face is a patch of its own"},
+                           options.cad.split_tangent));
   return table;
 }
 

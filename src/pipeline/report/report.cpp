@@ -52,6 +52,7 @@ Json describe_options(const MeshOptions& o) {
           {"order", o.order},
           {"placement", name_of(kPlacementNames, target.placement)},
           {"feature_angle_deg", degrees(target.features.crease_angle)},
+          {"tangent_edges", o.cad.split_tangent},
           {"feature_edges_given", target.features.extra_segments.size()},
           {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
@@ -144,6 +145,14 @@ Json describe_curving(const CurvingReport& c) {
           {"curved_edges", c.num_curved}, {"unmatched_edges", c.num_unmatched},
           {"max_offset", c.max_offset},   {"held_back_edges", c.held_back.size()},
           {"worst_held_back", worst}};
+}
+
+Json describe_exact(const ExactReport& e) {
+  return {{"vertices", e.num_verts},
+          {"exact", e.num_exact},
+          {"short", e.num_short},
+          {"max_before", e.max_before},
+          {"max_after", e.max_after}};
 }
 
 Json describe_folded(const std::vector<FoldedHex>& folded) {
@@ -240,6 +249,8 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
   SetTable table = make_set_table(result.mesh);
   name_by_place(result.mesh, table);
   report["sets"] = Json::parse(sets_to_json(summarize_sets(result.mesh, table)));
+  if (result.exact) report["exact_boundary"] = describe_exact(*result.exact);
+  if (run.cad) report["cad"] = Json::parse(cad_to_json(*run.cad));
   for (const ChangedName& name : run.changed_names)
     report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);
