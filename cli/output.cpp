@@ -68,8 +68,10 @@ void check_outputs(std::initializer_list<std::string> outputs,
 }
 
 std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
-                                                 Console& console, const std::string& format) {
+                                                 Console& console, const std::string& format,
+                                                 const std::vector<HexField>& fields) {
   WriteHexOptions options;
+  options.fields = fields;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
   options.format = format;
   options.names_by_place = true;

@@ -42,6 +42,8 @@ void write_view(const std::string& path, const MeshResult& result, const TriMesh
   options.verdict = &result.verdict;
   options.surface = &tree;
   options.fields.push_back(find_levels(result));
+  if (!result.layer.empty())
+    options.fields.push_back({"layer", {result.layer.begin(), result.layer.end()}});
   write_view(path, result.mesh, options);
 }
 

@@ -20,8 +20,9 @@ ALLOWED = {
     "fit": {"base", "mesh", "geometry", "target", "quality", "relax"},
     "polycube": {"base", "mesh", "geometry", "target", "grid", "dual", "fit", "quality", "relax"},
     "io": {"base", "mesh", "grid"},
+    "layers": {"base", "mesh", "geometry", "target", "quality", "relax", "fit", "io"},
     "render": {"base", "mesh", "geometry", "quality", "io"},
-    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "render"},
+    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "layers", "render"},
 }
 # Rooms inside a module, lowest first: a room includes itself and those before it.
 ROOMS = {

@@ -89,6 +89,7 @@ void MeshResult::to_world(const Similarity& frame) {
   grid.frame.to_world(frame);
   sizing.to_world(frame);
   fit.to_world(frame);
+  layers.to_world(frame);
 }
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {
@@ -108,6 +109,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, cons
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  best = layer_round(input, std::move(best), result);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   result.to_world(target.frame);

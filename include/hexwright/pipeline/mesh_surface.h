@@ -14,6 +14,7 @@
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
+#include "hexwright/layers/layers.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/target/target.h"
 
@@ -28,6 +29,7 @@ struct MeshOptions {
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;
+  LayersOptions layers;  ///< along walls, in the mesh of the best round
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -81,6 +83,10 @@ struct MeshResult {
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
+  LayersReport layers;
+  /// Per hex: the number of its wall layer, counted from the wall, 0 = in none; empty when none
+  /// were asked for.
+  IdVector<HexId, std::int32_t> layer;
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

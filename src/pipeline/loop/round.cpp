@@ -120,4 +120,20 @@ Round lift_round(const RoundInput& input, Round round) {
   return round;
 }
 
+Round layer_round(const RoundInput& input, Round round, MeshResult& result) {
+  if (input.options.layers.empty() || round.fit.mesh.num_hexes() == 0) return round;
+  if (round.verdict.quality.num_inverted > 0) return round;  // no result with layers either
+  LayersResult layered = run_stage(round.stages, "layers", input.context, [&] {
+    return add_layers(round.fit.mesh, input.target, input.options.layers, input.context);
+  });
+  round.fit.mesh = std::move(layered.mesh);
+  result.layer = std::move(layered.layer);
+  result.layers = std::move(layered.report);
+  count(round.stages.back(), "hexes", round.fit.mesh.num_hexes());
+  round.verdict = run_stage(round.stages, "judge", input.context, [&] {
+    return judge(round.fit.mesh, input.target, input.plan.judge, input.context);
+  });
+  return round;
+}
+
 }  // namespace hexwright

@@ -44,6 +44,10 @@ Round run_round(const RoundInput& input, CompleteResult completed);
 /// users are told of.
 Round lift_round(const RoundInput& input, Round round);
 
+/// Puts the wall layers that are asked for into the round's mesh, and judges it with them. Fills
+/// the result's `layers` and `layer`.
+Round layer_round(const RoundInput& input, Round round, MeshResult& result);
+
 /// The mean two-way distance the loop is content with, a share of the diagonal; 0 = any.
 inline double mean_goal(const MeshOptions& options) {
   return options.mean_share * options.sizing.tolerance;
