@@ -30,7 +30,7 @@ constexpr double kHeld = 0.7;  // of the way along an edge whose other end stays
 constexpr double kLow = 0.35;  // hexes of a lower scaled Jacobian are worked on
 constexpr int kMaxPolishings = 8;
 constexpr int kPolishPower = 3, kPolishSweeps = 4;
-constexpr double kHoldWeight = 100;
+constexpr double kHoldWeight = 1e4;
 constexpr double kPoor = 0.05;  // layers of a lower scaled Jacobian are made thinner
 constexpr double kThinner = 0.75;
 constexpr int kMaxThinnings = 8;
@@ -56,7 +56,7 @@ class Grower {
     place_sheet();
     limit_held_rims();
     push();
-    grow({3, 10, 30, 100, 300}, 2);
+    grow({3, 10, 30, 100, 300, 1000}, 4);
     polish();
     mend();
     settle_sliding();
