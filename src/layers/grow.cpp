@@ -26,8 +26,10 @@ constexpr ShapeEnergy kSheetShape = {1, 1, 0}, kInsideShape = {0.2, 1, 0};
 constexpr double kTolerance = 0.02;
 constexpr int kInsideSweeps = 2;
 constexpr int kNumPushes = 3;
-constexpr double kHeld = 0.7;  // of the way along an edge whose other end stays
-constexpr double kLow = 0.35;  // hexes of a lower scaled Jacobian are worked on
+constexpr double kReached = 0.5;      // of a height
+constexpr double kLeastShare = 0.05;  // ... that is asked for still
+constexpr double kHeld = 0.7;         // of the way along an edge whose other end stays
+constexpr double kLow = 0.35;         // hexes of a lower scaled Jacobian are worked on
 constexpr int kMaxPolishings = 8;
 constexpr int kPolishPower = 3, kPolishSweeps = 4;
 constexpr double kHoldWeight = 1e4;
@@ -56,7 +58,10 @@ class Grower {
     place_sheet();
     limit_held_rims();
     push();
-    grow({3, 10, 30, 100, 300, 1000}, 4);
+    grow({3, 10, 30, 100, 300}, 4);
+    relent();
+    grow({300, 1000}, 2);
+    relent();
     polish();
     mend();
     settle_sliding();
@@ -196,6 +201,18 @@ class Grower {
     SweepOptions options{{1, power, 0}, kHoldWeight, kTolerance};
     options.edge_floor = kEdgeFloor;
     for (int s = 0; s < kPolishSweeps; ++s) local.run(state_, options);
+  }
+
+  /// Heights that are out of reach are asked for no longer: the pull would only press hexes flat.
+  void relent() {
+    sheet_.mesh.positions = state_.mesh.positions;
+    for (SheetVert& vert : sheet_.verts) {
+      const double reached = measure_height(sheet_, vert);
+      if (reached >= kReached * vert.height) continue;
+      vert.height = std::max(reached, kLeastShare * vert.height);
+      vert.limit = LayerLimit::Shape;
+    }
+    aim();
   }
 
   void update_sliding() {

@@ -33,10 +33,15 @@ double wish_of(const LayerSpec& spec, const SheetVert& vert, const Target& targe
 /// Casts rays into the mesh from a vertex of a wall.
 class GapFinder {
  public:
-  GapFinder(const Target& target, const Box3& box, const Vec3& from, double size)
-      : target_(target), box_(box), from_(from), size_(size) {
+  GapFinder(const Target& target, const Box3& box, const Vec3& from, const SheetVert& vert)
+      : target_(target), box_(box), from_(from), size_(vert.size) {
     const auto nearest = target.tree.closest(from);
-    if (nearest) normal_ = target.tree.normal(nearest->tri);
+    if (!nearest) return;
+    // On a crease the nearest triangle stands across one of the normals, and tells by the other.
+    for (const Vec3& n : vert.normals) {
+      const double cosine = dot(target.tree.normal(nearest->tri), n);
+      if (std::abs(cosine) > std::abs(side_)) side_ = cosine;
+    }
   }
 
   /// Along one of the wall's normals: the least over the ray and four beside it.
@@ -66,10 +71,9 @@ class GapFinder {
  private:
   /// Walls that stand beside this one are no facing walls: there two sheets meet in an edge.
   double hit(const Vec3& d, const Vec3& n) const {
-    const double here = dot(normal_, n);
     const auto counts = [&](const RayHit& hit) {
       const double there = dot(target_.tree.normal(hit.tri), n);
-      return hit.length > 0.02 * size_ && there * (here > 0 ? 1 : -1) < -kFacing;
+      return hit.length > 0.02 * size_ && there * (side_ > 0 ? 1 : -1) < -kFacing;
     };
     const auto found = target_.tree.first_hit(from_, d, counts);
     return found ? found->length : std::numeric_limits<double>::infinity();
@@ -77,8 +81,9 @@ class GapFinder {
 
   const Target& target_;
   const Box3& box_;
-  Vec3 from_, normal_;
+  Vec3 from_;
   double size_;
+  double side_ = 0;  // positive where the surface's normals point into the mesh
 };
 
 void lower(SheetVert& vert, double limit, LayerLimit reason) {
@@ -178,7 +183,7 @@ void set_heights(SheetMesh& sheet, const Target& target, const LayersOptions& op
         const LayerSpec& spec = options.specs[static_cast<std::size_t>(vert.spec)];
         vert.wish = vert.height = wish_of(spec, vert, target);
         lower(vert, kSizeFactor * vert.size, LayerLimit::Size);
-        const GapFinder gaps(target, box, sheet.mesh.positions[vert.wall], vert.size);
+        const GapFinder gaps(target, box, sheet.mesh.positions[vert.wall], vert);
         for (const Vec3& n : vert.normals) {
           lower(vert, kGapShare * gaps.facing_wall(n), LayerLimit::Gap);
           lower(vert, kEndShare * gaps.end_of_mesh(n), LayerLimit::Gap);

@@ -160,7 +160,10 @@ Json describe_layers(const LayersReport& report) {
                        {"reduced", reduced},
                        {"note", row.note}});
   }
-  return {{"coverage", report.coverage()}, {"patches", patches}, {"unmatched", report.unmatched}};
+  return {{"coverage", report.coverage()},
+          {"sheet_hexes", report.num_sheet_hexes},
+          {"patches", patches},
+          {"unmatched", report.unmatched}};
 }
 
 Json describe_folded(const std::vector<FoldedHex>& folded) {
