@@ -57,6 +57,15 @@ void add_options(CLI::App& cmd, const OptionTable& table) {
     if (row.kind == OptionKind::Flag)
       cmd.add_flag_callback(
           name, [set] { set("true"); }, row.help);
+    else if (row.kind == OptionKind::Texts)
+      cmd.add_option_function<std::vector<std::string>>(
+             name,
+             [set](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) set(text);
+             },
+             row.help)
+          ->allow_extra_args(false)
+          ->type_name(row.allowed);
     else
       cmd.add_option_function<std::string>(name, set, row.help + " [" + row.fallback + "]")
           ->type_name(type_name(row));

@@ -234,7 +234,7 @@ std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
 
 double plan_gap(const MeshOptions& options, const Target& target) {
   const bool is_alone = options.fit.carve.side == Side::Inside && options.gap != 0 &&
-                        options.target.prepare.parts != Parts::AsIs;
+                        options.target.prepare.parts != Parts::AsIs && options.layers.empty();
   if (!is_alone) return -1;
   return (options.gap > 0 ? options.gap : kGapOfTolerance * options.sizing.tolerance) *
          target.diagonal();

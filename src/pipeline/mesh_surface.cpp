@@ -107,6 +107,7 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  best = layer_round(input, std::move(best), result);
   if (options.exact) result.exact = put_on_exact_shape(input, best);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
@@ -149,6 +150,7 @@ void MeshResult::to_world(const Similarity& frame) {
   sizing.to_world(frame);
   fit.to_world(frame);
   if (curving) curving->to_world(frame);
+  layers.to_world(frame);
 }
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {

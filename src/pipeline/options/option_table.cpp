@@ -75,6 +75,24 @@ OptionTable fit_rows(FitOptions& options) {
   };
 }
 
+OptionTable layer_rows(LayersOptions& options) {
+  OptionTable table = {
+      texts_row(
+          {"layers",
+           "Wall layers on the patches of this name (glob or regular expression, * for all): any "
+           "three of first, growth, count and total; lengths in the surface's unit, as 1% of "
+           "the diagonal or as 0.05h of the wall's edges; repeatable"},
+          "PATTERN=first:H,growth:R,count:N",
+          [&options](const std::string& text) { options.specs.push_back(parse_layer_spec(text)); }),
+      share_row({"layers-min-coverage",
+                 "Least share of the walls' area with all layers at half of their height or more; "
+                 "less fails the gate"},
+                options.min_coverage),
+  };
+  table.back().fallback = "0%";
+  return table;
+}
+
 OptionTable prepare_rows(PrepareOptions& options) {
   OptionTable table = {
       choice_row({"parts",
@@ -133,6 +151,7 @@ OptionTable make_option_table(MeshOptions& options) {
   append(table, complete_rows(options.complete));
   append(table, fit_rows(options.fit));
   table.push_back(order_row(options.order));
+  append(table, layer_rows(options.layers));
   table.push_back(feature_angle_row(options.target.features));
   table.push_back(flag_row({"tangent-edges",
                             "CAD files: edges where faces meet smoothly are features too, and "
