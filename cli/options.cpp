@@ -57,6 +57,15 @@ void add_options(CLI::App& cmd, const OptionTable& table) {
     if (row.kind == OptionKind::Flag)
       cmd.add_flag_callback(
           name, [set] { set("true"); }, row.help);
+    else if (row.kind == OptionKind::Texts)
+      cmd.add_option_function<std::vector<std::string>>(
+             name,
+             [set](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) set(text);
+             },
+             row.help)
+          ->allow_extra_args(false)
+          ->type_name(row.allowed);
     else
       cmd.add_option_function<std::string>(name, set, row.help + " [" + row.fallback + "]")
           ->type_name(type_name(row));
@@ -142,18 +151,38 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
       });
 }
 
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
-  if (rules.empty()) return std::move(surface);
-  std::vector<PatchRule> parsed;
-  for (const std::string& rule : rules) {
-    parsed.push_back(parse_patch_rule(rule));
-    for (PatchCondition& condition : parsed.back().conditions)
+namespace {
+
+std::vector<PatchRule> read_rules(const std::vector<std::string>& texts, Program& program) {
+  std::vector<PatchRule> rules;
+  for (const std::string& text : texts) {
+    rules.push_back(parse_patch_rule(text));
+    for (PatchCondition& condition : rules.back().conditions)
       if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
   }
-  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  return rules;
+}
+
+void warn_unmatched(const std::vector<std::string>& rules, const std::vector<std::size_t>& matched,
+                    Program& program) {
   for (std::size_t r = 0; r < rules.size(); ++r)
-    if (ruled.num_matched[r] == 0)
+    if (matched[r] == 0)
       program.console.warn("--patch " + rules[r] + ": no part of the surface fits the rule");
+}
+
+}  // namespace
+
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+  if (rules.empty()) return std::move(surface);
+  const std::vector<PatchRule> parsed = read_rules(rules, program);
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    for (const PatchCondition& condition : parsed[r].conditions)
+      if (condition.kind == PatchCondition::Kind::CadFace)
+        throw Error(
+            ErrorCode::BadArgument,
+            "--patch " + rules[r] + " asks for a face of a CAD file, which the input is not");
+  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  warn_unmatched(rules, ruled.num_matched, program);
   return std::move(ruled.surface);
 }
 
@@ -161,6 +190,15 @@ TriMesh load_surface(const std::string& path, Program& program) {
   SurfaceFile file = read_surface(path);
   for (const std::string& w : file.warnings) program.console.warn(path + ": " + w);
   return std::move(file.mesh);
+}
+
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program) {
+  CadModel model = read_cad(path, read_options_for(options));
+  for (const std::string& w : model.warnings) program.console.warn(path + ": " + w);
+  CadInput input = prepare_cad(std::move(model), read_rules(rules, program), options);
+  warn_unmatched(rules, input.num_matched, program);
+  return input;
 }
 
 }  // namespace hexwright::cli

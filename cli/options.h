@@ -7,6 +7,7 @@
 
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/option_table.h"
 
 #include "commands.h"
@@ -51,6 +52,10 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
 /// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
 /// meets.
 TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
+
+/// Reads a CAD file for a mesh with these options, and names its patches. Prints the warnings.
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program);
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 

@@ -10,7 +10,8 @@ from pathlib import Path
 import hexwright
 
 ROOT = Path(__file__).resolve().parent.parent
-TYPES = {"flag": "bool", "whole": "int", "number": "float", "share": "float | str", "degrees": "float"}
+TYPES = {"flag": "bool", "whole": "int", "number": "float", "share": "float | str", "degrees": "float",
+         "texts": "str | list[str]"}
 
 
 def keyword_type(option):

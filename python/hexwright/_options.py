@@ -18,7 +18,7 @@ class Option(NamedTuple):
     """One option of a stage."""
 
     name: str  #: keyword in Python; with hyphens for underscores, and two before, that of the command line
-    kind: str  #: flag, whole, number, share (of the diagonal), degrees or choice
+    kind: str  #: flag, whole, number, share (of the diagonal), degrees, choice or texts
     allowed: str  #: the range, or the names with ``|`` between them
     default: str
     help: str
@@ -72,6 +72,8 @@ def _to_text(name: str, value: Any) -> str:
         return repr(value)
     if isinstance(value, str):
         return value
+    if isinstance(value, (list, tuple)) and all(isinstance(text, str) for text in value):
+        return ";".join(value)
     raise BadInput(f"{name}: {type(value).__name__} is neither a number, a string nor a truth value")
 
 

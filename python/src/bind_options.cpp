@@ -29,6 +29,8 @@ const char* kind_name(OptionKind kind) {
       return "share";
     case OptionKind::Degrees:
       return "degrees";
+    case OptionKind::Texts:
+      return "texts";
     case OptionKind::Choice:
       return "choice";
   }

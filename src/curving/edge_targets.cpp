@@ -13,6 +13,9 @@ namespace {
 /// a half circle is as far from its arc.
 constexpr double kFarthest = 0.5;
 
+/// An exact point that is farther from the triangles' belongs to something else.
+constexpr double kFarthestExact = 0.1;
+
 /// Per edge, what the labels say.
 struct EdgeLabel {
   CurveId curve;
@@ -112,6 +115,16 @@ class Seeker {
   const CurvingTarget& target_;
 };
 
+/// The point of the exact shape near a target; the target itself where there is none.
+Vec3 put_on_exact(const CurvingTarget& target, const EdgeLabel& label, EdgeKind kind,
+                  const Vec3& point) {
+  const Vec3 p = target.frame.to_world(point);
+  const Vec3 normal = target.frame.pose.apply_inverse(normalized(label.normal));
+  const auto found =
+      kind == EdgeKind::Curve ? target.exact->on_curve(p) : target.exact->on_surface(p, normal);
+  return found ? target.frame.to_unit(found->point) : point;
+}
+
 }  // namespace
 
 EdgeTargets find_edge_targets(const HexMesh& mesh, const CurvingTarget& target) {
@@ -134,6 +147,15 @@ EdgeTargets find_edge_targets(const HexMesh& mesh, const CurvingTarget& target) 
         if (found) targets.offset[e] = *found - chord.middle();
       },
       64);
+  if (!target.exact) return targets;
+  for (EdgeId e : labels.ids()) {  // one by one, as an exact shape asks for
+    if (targets.kind[e] != EdgeKind::Curve && targets.kind[e] != EdgeKind::Surface) continue;
+    const Chord chord = {mesh.positions[verts[e][0]], mesh.positions[verts[e][1]]};
+    const Vec3 near = chord.middle() + targets.offset[e];
+    const Vec3 exact = put_on_exact(target, labels[e], targets.kind[e], near);
+    if (distance(exact, near) <= kFarthestExact * chord.length())
+      targets.offset[e] = exact - chord.middle();
+  }
   return targets;
 }
 

@@ -281,7 +281,8 @@ class Fitter {
   }
 
   bool is_lifting() const {
-    return options_.lift_goal > 0 && options_.patch_verts != PatchVerts::OnSurface;
+    return options_.lift_goal > 0 &&
+           (options_.patch_verts != PatchVerts::OnSurface || options_.lifts_off_surface);
   }
 
   bool is_selective() const {

@@ -29,6 +29,7 @@ Json to_json(const TopologyReport& t) {
           {"nonmanifold_vertices", t.num_nonmanifold_verts},
           {"singular_vertices", t.num_singular_verts},
           {"hanging_vertices", t.hanging_verts.size()},
+          {"contact_vertices", t.num_contact_verts},
           {"problems", t.problems}};
 }
 

@@ -28,6 +28,9 @@ std::string topology_lines(const Verdict& verdict) {
       fmt::format("{}, {}", counted(t.num_components, "component", "components"),
                   counted(t.num_boundary_components, "boundary surface", "boundary surfaces"));
   if (t.is_valid()) shape += fmt::format(", genus {}; conforming and manifold", t.genus());
+  if (t.num_contact_verts > 0)
+    shape += fmt::format("; {} on faces of another body",
+                         counted(t.num_contact_verts, "vertex", "vertices"));
   text += line("topology", shape);
   if (verdict.has_other_topology && t.is_valid())
     text +=

@@ -395,6 +395,48 @@ class Names(CliTest):
         self.assertIn("no part of the surface", done.stderr)
 
 
+class Cad(CliTest):
+    PLATE = SOURCE / "data/cad/plate_hole.step"
+
+    def reads_cad(self):
+        done = subprocess.run([str(BINARY), "inspect", str(self.PLATE)], capture_output=True, text=True, timeout=60)
+        return "scripts/setup cad" not in done.stderr
+
+    def test_a_cad_file_is_meshed_or_the_message_says_how_to_get_the_reader(self):
+        if not self.reads_cad():
+            done = self.run_binary("mesh", self.PLATE, "-o", self.path / "a.inp", expect=3)
+            self.assertRegex(done.stderr, "plate_hole.step: .*scripts/setup cad")
+            self.assertEqual(self.files(), ["cube.obj"])
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        self.run_binary("mesh", self.PLATE, "-o", self.path / "a.inp", "--rounds", "0", "--patch", "top=plane:z=5",
+                        "--report", self.path / "a.json")
+        text = (self.path / "a.inp").read_text()
+        for name in ("ELSET=plate", "NAME=bore", "NAME=fixed", "NAME=top"):
+            self.assertIn(name, text)
+        self.assertEqual(json.loads((self.path / "a.json").read_text())["cad"]["named_faces"], 4)
+
+    def test_inspect_describes_faces(self):
+        if not self.reads_cad():
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        self.assertIn("bore: cylinder r=5 along z through (20, 10, 0)", self.run_binary("inspect", self.PLATE).stdout)
+        faces = json.loads(self.run_binary("inspect", self.PLATE, "--json").stdout)["cad"]["faces"]
+        self.assertEqual(len(faces), 7)
+
+    def test_bad_files_leave_nothing_and_say_why(self):
+        if not self.reads_cad():
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        cut = self.path / "cut.step"
+        cut.write_text(self.PLATE.read_text()[:5000])
+        for file, words in ((cut, "last line"), (SOURCE / "data/cad/open_shell.step", "do not close")):
+            done = self.run_binary("mesh", file, "-o", self.path / "a.inp", expect=3)
+            self.assertRegex(done.stderr, f"error: .*{file.name}: .*{words}")
+        self.assertEqual(self.files(), ["cube.obj", "cut.step"])
+
+    def test_rules_for_faces_need_a_cad_file(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.inp", "--patch", "bore=cylinder:r=5", expect=2)
+        self.assertIn("face of a CAD file", done.stderr)
+
+
 class Check(CliTest):
     HEX = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{}\nHexahedra\n1\n1 2 4 3 5 6 8 7 0\nEnd\n"
     CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]

@@ -44,3 +44,23 @@ def quarter_ring(path: Path, inner=1.0, outer=2.0, height=0.5, segments=360):
     ring.grid("xmin", [[(0.0, outer, 0), (0.0, inner, 0)], [(0.0, outer, height), (0.0, inner, height)]])
     ring.grid("ymin", [[(inner, 0.0, 0), (outer, 0.0, 0)], [(inner, 0.0, height), (outer, 0.0, height)]])
     ring.write(path)
+
+
+def eighth_shell(path: Path, inner=1.0, outer=2.0, segments=120):
+    """An eighth of a hollow sphere: patches inner, outer and, where it is cut, xmin, ymin and zmin."""
+    angles = [math.pi / 2 * k / segments for k in range(segments + 1)]
+
+    def point(radius, up, around):  # exactly on the planes of the cuts
+        x, y, z = math.cos(up) * math.cos(around), math.cos(up) * math.sin(around), math.sin(up)
+        return tuple(radius * c if abs(c) > 1e-12 else 0.0 for c in (x, y, z))
+
+    def circle(radius, up):
+        return [point(radius, up, around) for around in angles]
+
+    shell = Surface()
+    shell.grid("outer", [circle(outer, up) for up in angles])
+    shell.grid("inner", [circle(inner, up) for up in angles[::-1]])
+    shell.grid("zmin", [circle(inner, 0), circle(outer, 0)])
+    shell.grid("ymin", [[point(r, up, 0) for up in angles] for r in (outer, inner)])
+    shell.grid("xmin", [[point(r, up, math.pi / 2) for up in angles] for r in (inner, outer)])
+    shell.write(path)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A thick cylinder under pressure, solved by CalculiX and compared with Lame's solution.
+"""A thick cylinder and a hollow sphere under inner pressure, solved by CalculiX and compared with Lame's solutions.
 
 Usage: lame_test.py HEXWRIGHT. Exit code 77 (skipped) without CalculiX (ccx) or numpy.
-With --table it prints a table of all variants instead of checking one.
+With --table it prints a table of variants on the cylinder instead.
 """
 import shutil
 import subprocess
@@ -14,17 +14,65 @@ SKIPPED = 77
 INNER, OUTER, PRESSURE, MODULUS, POISSON = 1.0, 2.0, 1.0, 1000.0, 0.3
 
 
-def exact_displacement(points):
-    import numpy as np
+class Cylinder:
+    """A quarter in plane strain. Its surface, exact solution, and what is held along which axis."""
 
-    r = np.hypot(points[:, 0], points[:, 1])
-    factor = PRESSURE * INNER**2 / (MODULUS * (OUTER**2 - INNER**2)) * (1 + POISSON)
-    radial = factor * ((1 - 2 * POISSON) * r + OUTER**2 / r)
-    return radial[:, None] * points * np.array([1, 1, 0]) / r[:, None]
+    held = {"xmin": 1, "ymin": 2, "bottom": 3, "top": 3}
+    largest_hoop = PRESSURE * (INNER**2 + OUTER**2) / (OUTER**2 - INNER**2)
+    most = {"hexes": 1300, "u": 1e-4, "hoop": 0.01}
+
+    @staticmethod
+    def write(path):
+        import bodies
+
+        bodies.quarter_ring(path, INNER, OUTER)
+
+    @staticmethod
+    def displacement(points):
+        import numpy as np
+
+        flat = points * np.array([1, 1, 0])
+        r = np.linalg.norm(flat, axis=1)[:, None]
+        factor = PRESSURE * INNER**2 / (MODULUS * (OUTER**2 - INNER**2)) * (1 + POISSON)
+        return factor * ((1 - 2 * POISSON) * r + OUTER**2 / r) * flat / r
+
+    @staticmethod
+    def hoop(stress, point):
+        xx, yy, _, xy = stress[:4]
+        c, s = point[0] / INNER, point[1] / INNER
+        return xx * s * s + yy * c * c - 2 * xy * s * c
 
 
-def largest_hoop():
-    return PRESSURE * (INNER**2 + OUTER**2) / (OUTER**2 - INNER**2)
+class Sphere:
+    """An eighth of the shell."""
+
+    held = {"xmin": 1, "ymin": 2, "zmin": 3}
+    largest_hoop = PRESSURE * (INNER**3 + OUTER**3 / 2) / (OUTER**3 - INNER**3)
+    most = {"hexes": 3000, "u": 3e-4, "hoop": 0.03}
+
+    @staticmethod
+    def write(path):
+        import bodies
+
+        bodies.eighth_shell(path, INNER, OUTER)
+
+    @staticmethod
+    def displacement(points):
+        import numpy as np
+
+        r = np.linalg.norm(points, axis=1)[:, None]
+        factor = PRESSURE * INNER**3 / (MODULUS * (OUTER**3 - INNER**3))
+        return factor * ((1 - 2 * POISSON) * r + (1 + POISSON) * OUTER**3 / (2 * r**2)) * points / r
+
+    @staticmethod
+    def hoop(stress, point):
+        """The mean of the two along the sphere: the trace without the radial one."""
+        import numpy as np
+
+        xx, yy, zz, xy, yz, zx = stress[:6]
+        n = point / np.linalg.norm(point)
+        radial = n @ np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]) @ n
+        return (xx + yy + zz - radial) / 2
 
 
 STEP = """*INCLUDE, INPUT=mesh.inp
@@ -33,10 +81,7 @@ STEP = """*INCLUDE, INPUT=mesh.inp
 {modulus}, {poisson}
 *SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
 *BOUNDARY
-xmin_NODES, 1, 1
-ymin_NODES, 2, 2
-bottom_NODES, 3, 3
-top_NODES, 3, 3
+{held}
 *STEP
 *STATIC
 *DLOAD
@@ -49,7 +94,7 @@ S
 """
 
 
-def write_deck(folder: Path, element: str):
+def write_deck(folder: Path, body, element: str):
     """Pressure on the faces of the patch, one by one: CalculiX takes no surfaces there."""
     mesh = folder / "mesh.inp"
     text = mesh.read_text().replace("TYPE=C3D20,", f"TYPE={element},")
@@ -63,7 +108,8 @@ def write_deck(folder: Path, element: str):
             faces.append(f"{number}, P{side.strip()[1]}, {PRESSURE}")
     assert faces, "no face of the patch 'inner'"
     deck = folder / "lame.inp"
-    deck.write_text(STEP.format(modulus=MODULUS, poisson=POISSON, loads="\n".join(faces)))
+    held = "\n".join(f"{patch}_NODES, {axis}, {axis}" for patch, axis in body.held.items())
+    deck.write_text(STEP.format(modulus=MODULUS, poisson=POISSON, held=held, loads="\n".join(faces)))
     return deck
 
 
@@ -78,28 +124,25 @@ def count_hexes(mesh: Path, nodes_per_hex: int) -> int:
     return numbers // (nodes_per_hex + 1)
 
 
-def measure(hexwright: str, folder: Path, options: list[str], element: str):
+def measure(hexwright: str, folder: Path, body, options: list[str], element: str):
     """Number of hexes, relative error of u over the nodes, of the largest hoop stress among the nodes inside, and the
     largest error of any of these."""
     import numpy as np
 
-    import bodies
     import calculix
 
-    bodies.quarter_ring(folder / "ring.obj")
+    body.write(folder / "body.obj")
     mesh = folder / "mesh.inp"
-    run = [hexwright, "mesh", folder / "ring.obj", "-o", mesh, "-q", *options]
+    run = [hexwright, "mesh", folder / "body.obj", "-o", mesh, "-q", *options]
     subprocess.run(run, check=True, timeout=300, stderr=subprocess.DEVNULL)
-    found = calculix.solve(write_deck(folder, element))
+    found = calculix.solve(write_deck(folder, body, element))
     nodes = calculix.read_nodes(mesh)
     numbers = sorted(found["DISP"])
     u = np.array([found["DISP"][n][:3] for n in numbers])
-    exact = exact_displacement(np.array([nodes[n] for n in numbers]))
-    hoop = []
-    for n in calculix.set_nodes(mesh, "inner_NODES"):
-        xx, yy, _, xy = found["STRESS"][n][:4]
-        c, s = nodes[n][0] / INNER, nodes[n][1] / INNER
-        hoop.append((xx * s * s + yy * c * c - 2 * xy * s * c) / largest_hoop() - 1)
+    exact = body.displacement(np.array([nodes[n] for n in numbers]))
+    hoop = [
+        body.hoop(found["STRESS"][n], nodes[n]) / body.largest_hoop - 1 for n in calculix.set_nodes(mesh, "inner_NODES")
+    ]
     return (
         count_hexes(mesh, 20 if element.startswith("C3D20") else 8),
         np.linalg.norm(u - exact) / np.linalg.norm(exact),
@@ -126,17 +169,21 @@ def print_table(hexwright: str):
     print("| options | hexes | u, % | largest hoop stress, % | worst hoop stress, % |\n|---|--:|--:|--:|--:|")
     for name, options, element in VARIANTS:
         with tempfile.TemporaryDirectory() as folder:
-            count, u, hoop, worst = measure(hexwright, Path(folder), options, element)
+            count, u, hoop, worst = measure(hexwright, Path(folder), Cylinder, options, element)
             print(f"| {name} | {count} | {100 * u:.4f} | {100 * hoop:.2f} | {100 * worst:.2f} |")
 
 
 def check(hexwright: str):
-    with tempfile.TemporaryDirectory() as folder:
-        count, u, hoop, worst = measure(hexwright, Path(folder), ["--tolerance", "0.2%", *SECOND], "C3D20R")
-    print(f"{count} hexes: u {100 * u:.4f} %, largest hoop stress {100 * hoop:.2f} %, worst {100 * worst:.2f} % off")
-    assert count < 1300, count
-    assert u < 1e-4, u
-    assert worst < 0.01, worst
+    for body in (Cylinder, Sphere):
+        with tempfile.TemporaryDirectory() as folder:
+            count, u, hoop, worst = measure(hexwright, Path(folder), body, ["--tolerance", "0.2%", *SECOND], "C3D20R")
+        print(
+            f"{body.__name__}, {count} hexes: u {100 * u:.4f} %, largest hoop stress {100 * hoop:.2f} %, "
+            f"worst {100 * worst:.2f} % off"
+        )
+        assert count < body.most["hexes"], count
+        assert u < body.most["u"], u
+        assert worst < body.most["hoop"], worst
 
 
 def main() -> int:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/geometry/exact_shape.h"
 #include "hexwright/geometry/side.h"
 #include "hexwright/geometry/surface_parts.h"
 #include "hexwright/mesh/hex_mesh.h"
@@ -42,6 +43,10 @@ struct CurvingTarget {
   const SurfaceTree& tree;
   const SurfaceParts& parts;  ///< under the numbers of the mesh's labels
   Side side = Side::Inside;   ///< of the surface that the mesh is on
+  /// What the surface stands for, in its own coordinates, to which `frame` leads from the mesh's:
+  /// mid-nodes are put onto it. May be null.
+  const ExactShape* exact = nullptr;
+  Similarity frame = {};
 };
 
 /// Gives the mesh mid-nodes: of edges on labelled curves on these, of other edges of labelled quads

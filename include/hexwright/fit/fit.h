@@ -35,7 +35,8 @@ struct FitOptions {
   /// lift_goal, boundary vertices leave the surface within it, as far as that raises the least
   /// scaled Jacobian.
   double tolerance = 0.005;
-  double lift_goal = 0.5;  ///< 0, or vertices on the surface: they stay where they belong
+  double lift_goal = 0.5;  ///< 0, or vertices on the surface: they stay where they belong ...
+  bool lifts_off_surface = false;  ///< ... unless this is wished: only the balance is given up then
 };
 
 /// What became of one feature curve.

@@ -22,6 +22,7 @@ struct HexField {
 /// Hexes of any program's file, of first or second order; other elements are counted and left out,
 /// boundary quads, edges and corners become labels. Throws Error{CannotOpen} or Error{BadFile}.
 HexMesh read_hex_mesh(const std::filesystem::path& path);
+/// Tets of any program's file; a file of hexes alone is cut_hexes(). Throws as above.
 TetMesh read_tet_mesh(const std::filesystem::path& path);
 
 struct WriteHexOptions {

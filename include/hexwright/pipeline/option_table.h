@@ -22,7 +22,8 @@ enum class OptionKind {
   Number,   ///< a finite number
   Share,    ///< of the bounding box's diagonal, above 0 and below 1: "0.5%" or "0.005"
   Degrees,  ///< an angle
-  Choice    ///< one of a few names
+  Choice,   ///< one of a few names
+  Texts     ///< text of a form of its own; several times, or several with ; between them
 };
 
 /// One option, bound to the struct that its table was made for.

@@ -1,9 +1,11 @@
 // The report of a run as JSON: what `hexwright mesh --report FILE` writes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hexwright/cad/cad_surface.h"
 #include "hexwright/io/set_table.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/pipeline/stages.h"
@@ -16,6 +18,7 @@ struct RunInfo {
   std::string input, output;  ///< paths as given
   int num_threads = 0;
   std::vector<ChangedName> changed_names = {};  ///< of sets, by the output's format
+  std::optional<CadSummary> cad = {};           ///< where the input is a CAD file
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
@@ -35,6 +38,10 @@ std::string fit_to_json(const FitStageResult& fit);
 std::string curving_to_text(const CurvingReport& curving);
 /// Tets count from 1 in it, as in the files.
 std::string polycube_to_json(const PolycubeReport& polycube);
+
+/// A CAD file's solids, faces and edges, as JSON and for people.
+std::string cad_to_json(const CadSummary& cad);
+std::string cad_to_text(const CadSummary& cad);
 
 /// Peak resident memory of this process in bytes; 0 where the system does not tell.
 std::size_t peak_memory_bytes();

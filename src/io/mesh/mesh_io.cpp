@@ -5,6 +5,7 @@
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/set_summary.h"
+#include "hexwright/mesh/cut_hexes.h"
 
 #include "io/mesh/volume_file.h"
 #include "io/solver/solver_formats.h"
@@ -200,10 +201,17 @@ HexMesh read_hex_mesh(const std::filesystem::path& path) {
 
 TetMesh read_tet_mesh(const std::filesystem::path& path) {
   io::VolumeFile file = io::read_volume_file(path);
-  if (file.tets.empty())
-    throw io::bad_file(path.string(), "the file holds no tetrahedron (" + io::content_of(file) +
-                                          "); give a tetrahedral mesh");
+  if (file.tets.empty() && file.hexes.empty())
+    throw io::bad_file(path.string(), "the file holds no tetrahedron and no hexahedron (" +
+                                          io::content_of(file) + "); give a mesh of one of them");
   TetMesh mesh;
+  if (file.tets.empty()) {
+    HexMesh hexes;
+    hexes.positions = std::move(file.positions);
+    hexes.hexes = std::move(file.hexes);
+    if (const auto issue = hexes.find_problem()) throw io::bad_file(path.string(), issue->message);
+    return cut_hexes(hexes);
+  }
   mesh.positions = std::move(file.positions);
   mesh.tets = std::move(file.tets);
   if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);

@@ -140,6 +140,17 @@ NamedOption share_row(RowText text, double& value) {
   return row;
 }
 
+NamedOption texts_row(RowText text, std::string form, std::function<void(const std::string&)> add) {
+  NamedOption row = make_row(std::move(text), OptionKind::Texts, std::move(form), "none");
+  row.set = [add = std::move(add)](const std::string& given) {
+    std::size_t begin = 0;
+    for (std::size_t end; (end = given.find(';', begin)) != std::string::npos; begin = end + 1)
+      add(given.substr(begin, end - begin));
+    add(given.substr(begin));
+  };
+  return row;
+}
+
 NamedOption choice_row(RowText text, const std::vector<std::string>& names,
                        const std::string& fallback) {
   return make_row(std::move(text), OptionKind::Choice, fmt::format("{}", fmt::join(names, "|")),
