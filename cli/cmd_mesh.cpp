@@ -32,6 +32,9 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
   for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
+  if (cmd.options.sizes.any())
+    console.print(fmt::format("  edges: median {:.4g}, 95% up to {:.4g}, longest {:.4g}",
+                              result.edges.median, result.edges.high, result.edges.max));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
 }

@@ -8,10 +8,13 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/pipeline/plan.h"
+#include "hexwright/pipeline/size_plan.h"
 
 #include "base/stage_log.h"
 #include "pipeline/loop/budgets.h"
 #include "pipeline/loop/loop.h"
+#include "pipeline/loop/outer_faces.h"
+#include "pipeline/size_search.h"
 
 namespace hexwright {
 namespace {
@@ -28,9 +31,11 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
 /// less deep.
 CompleteResult complete_within_budget(const RoundInput& input, MeshResult& result) {
   SizingOptions sizing = input.plan.sizing;
+  const SizeField& sizes = input.plan.sizes;
   while (true) {
-    result.sizing = run_stage(result.stages, "sizing", input.context,
-                              [&] { return build_grid(input.target, sizing, input.context); });
+    result.sizing = run_stage(result.stages, "sizing", input.context, [&] {
+      return build_grid(input.target, sizing, input.context, sizes.empty() ? nullptr : &sizes);
+    });
     record_sizing(result.sizing, result.stages.back());
     CompleteResult completed = run_stage(result.stages, "complete", input.context,
                                          [&] { return even_out(input, result.sizing.grid); });
@@ -38,7 +43,7 @@ CompleteResult complete_within_budget(const RoundInput& input, MeshResult& resul
     if (completed.grid.num_cells() <= input.plan.budgets.background) return completed;
     const std::string exceeded = say_exceeded(
         Budget::Background, static_cast<double>(completed.grid.num_cells()), input.plan.budgets);
-    if (result.sizing.reached_level <= sizing.min_level)
+    if (result.sizing.reached_level <= sizing.min_level || sizes.is_exact)
       throw Error(
           ErrorCode::OutOfResources,
           fmt::format("{}, or lower the minimum level, which is {}", exceeded, sizing.min_level));
@@ -70,6 +75,25 @@ void take_round(Round&& round, MeshResult& result) {
   for (StageRecord& stage : round.stages) result.stages.push_back(std::move(stage));
 }
 
+/// Everything behind the target, in its coordinates.
+MeshResult run_stages(const Target& target, const MeshOptions& options, const Context& context) {
+  MeshResult result;
+  result.surface = target.diagnosis;
+  result.pose = target.frame.pose;
+  result.stages = target.stages;
+  const StagePlan stages = plan(options, target, context);
+  const RoundInput input{target, options, stages, context};
+  CompleteResult completed = complete_within_budget(input, result);
+  Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  apply_gate(input, best, result);
+  take_round(std::move(best), result);
+  if (stages.sizing.domain && options.fit.carve.side != Side::Inside)
+    name_outer_faces(box_of(*stages.sizing.domain), result.mesh);
+  result.edges = measure_edges(result.mesh);
+  result.tolerance = options.sizing.tolerance;
+  return result;
+}
+
 /// Passes everything on, and keeps each warning once.
 Context collect_warnings(const Context& caller, std::vector<std::string>& warnings) {
   Context context = caller;
@@ -89,29 +113,28 @@ void MeshResult::to_world(const Similarity& frame) {
   grid.frame.to_world(frame);
   sizing.to_world(frame);
   fit.to_world(frame);
+  edges.to_world(frame);
 }
 
-MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {
+MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const Context& caller) {
   const Stopwatch clock;
+  const MeshOptions options = resolve_sizes(wishes, surface);
   const auto watch = caller.watch();
-  MeshResult result;
-  const Context context = collect_warnings(caller, result.warnings);
+  std::vector<std::string> warnings;
+  const Context context = collect_warnings(caller, warnings);
 
   // What is known of the surface, in unit coordinates.
   const Target target = make_target(surface, plan_target(options), context);
-  result.surface = target.diagnosis;
-  result.pose = target.frame.pose;
-  result.stages = target.stages;
-
-  // Grid, hexes, fit; again where the fit missed.
-  const StagePlan stages = plan(options, target);
-  const RoundInput input{target, options, stages, context};
-  CompleteResult completed = complete_within_budget(input, result);
-  Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
-  apply_gate(input, best, result);
-  take_round(std::move(best), result);
+  // Grid, hexes, fit; again where the fit missed; and all of it again where sizes were.
+  MeshResult result = search_sizes(
+      target, options,
+      [&](const MeshOptions& sized, const Context& of_run) {
+        return run_stages(target, sized, of_run);
+      },
+      context);
   result.to_world(target.frame);
   check_after_mapping(target.frame, result);
+  result.warnings = std::move(warnings);
   result.seconds = clock.seconds();
   return result;
 }

@@ -14,6 +14,8 @@
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
+#include "hexwright/pipeline/size_wishes.h"
+#include "hexwright/quality/edge_lengths.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/target/target.h"
 
@@ -25,6 +27,8 @@ struct MeshOptions {
                           .features = {},
                           .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
   SizingOptions sizing;
+  bool is_tolerance_given = false;  ///< else `sizes` may raise sizing.tolerance
+  SizeWishes sizes;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;
@@ -81,6 +85,8 @@ struct MeshResult {
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
+  EdgeLengths edges;
+  double tolerance = 0;  ///< distance goal, share of the diagonal: as asked, or as sizes allow
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

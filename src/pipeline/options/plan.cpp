@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hexwright/pipeline/size_plan.h"
+
 namespace hexwright {
 namespace {
 
@@ -42,9 +44,18 @@ Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
 
 }  // namespace
 
-StagePlan plan(const MeshOptions& wishes, const Target& target) {
+StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& context) {
   StagePlan plan;
   plan.sizing = wishes.sizing;
+  if (auto sized = choose_domain(wishes, target)) {
+    plan.sizing.domain = std::move(sized->domain);
+    // The loop sees where that is too coarse: cells of two sizes cost more than they save.
+    if (wishes.sizes.size.is_given() && wishes.fit.carve.side == Side::Inside) {
+      plan.sizing.max_level = std::min(plan.sizing.max_level, sized->level);
+      plan.sizing.min_level = std::min(plan.sizing.min_level, sized->level);
+    }
+  }
+  plan.sizes = make_size_field(wishes, target, context);
   plan.complete = wishes.complete;
   plan.even = wishes.even;
   plan.even.max_cells = std::min(wishes.even.max_cells, wishes.max_hexes);
