@@ -134,6 +134,7 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const
       context);
   result.to_world(target.frame);
   check_after_mapping(target.frame, result);
+  result.size_asked = wishes.sizes.size.in(bounding_box(surface).diagonal());
   result.warnings = std::move(warnings);
   result.seconds = clock.seconds();
   return result;

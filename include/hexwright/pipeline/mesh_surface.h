@@ -86,6 +86,7 @@ struct MeshResult {
   DualReport dual;
   FitReport fit;
   EdgeLengths edges;
+  double size_asked = 0;  ///< the largest edge that was asked for everywhere; 0 = none was
   double tolerance = 0;  ///< distance goal, share of the diagonal: as asked, or as sizes allow
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;

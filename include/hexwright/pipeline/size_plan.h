@@ -15,13 +15,15 @@ MeshOptions resolve_sizes(const MeshOptions& wishes, const TriMesh& surface);
 /// in the same unit.
 MeshOptions resolve_tolerance(MeshOptions options, double diagonal);
 
-/// The bounds of cells in the target's unit coordinates. Errors: BadArgument when a rule names no
-/// patch or curve of the target.
-SizeField make_size_field(const MeshOptions& wishes, const Target& target, const Context& context);
+/// In the target's unit coordinates.
+struct SizePlan {
+  SizeField field;                    ///< bounds of cells
+  std::optional<SizedDomain> domain;  ///< absent: one root cube around the object
+};
 
-/// The lattice and the domain that the wishes ask for, in unit coordinates; absent: one root cube
-/// around the object. Errors: BadArgument when the box does not hold the object's box.
-std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target& target);
+/// Errors: BadArgument when a rule names no patch or curve of the target, or the box does not meet
+/// the object.
+SizePlan plan_sizes(const MeshOptions& wishes, const Target& target, const Context& context);
 
 /// The box of the domain around the object, in the surface's coordinates; absent: inside, or none
 /// was asked for.

@@ -25,6 +25,10 @@ constexpr double kToleranceOfSize = 0.25;
 constexpr double kLargestTolerance = 0.25;  // of the diagonal
 /// Between samples of walls, share of the diagonal.
 constexpr double kWallSpacing = 1.0 / 120;
+/// What rays measure may be less than a wall by so much.
+constexpr double kWidthRoom = 1.01;
+/// One of so many samples may be on a thinner wall than those that the lattice is made for.
+constexpr std::size_t kThinnest = 10;
 /// Roots along the shortest side of a box.
 constexpr int kLeastRoots = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -145,41 +149,57 @@ Distance distance_to_object(const Target& target, Side side) {
   };
 }
 
-/// Thickness over the number of cells, within walls that rays at samples of the surface found.
-SizeField::Limit limit_across(const MeshOptions& wishes, const Target& target,
-                              const Context& context) {
-  const int count = wishes.sizes.across;
-  const Side side = wishes.fit.carve.side;
-  const double spacing = kWallSpacing * target.diagonal();
+/// Walls of the solid, or of gaps outside, that rays at samples of the surface found.
+struct WallWidths {
   std::vector<Vec3> points;
-  auto widths = std::make_shared<std::vector<double>>();
-  for (const WallSample& s : sample_opposite_walls(target.tree, spacing, context)) {
+  std::vector<double> widths;
+  double spacing = 0;
+};
+
+WallWidths measure_walls(const MeshOptions& wishes, const Target& target, const Context& context) {
+  const Side side = wishes.fit.carve.side;
+  WallWidths walls;
+  if (wishes.sizes.across == 0) return walls;
+  walls.spacing = kWallSpacing * target.diagonal();
+  for (const WallSample& s : sample_opposite_walls(target.tree, walls.spacing, context)) {
     const double width = side == Side::Inside    ? s.inner
                          : side == Side::Outside ? s.outer
                                                  : std::min(s.inner, s.outer);
     if (!std::isfinite(width)) continue;
-    points.push_back(s.point);
-    widths->push_back(width);
+    walls.points.push_back(s.point);
+    walls.widths.push_back(width);
   }
-  const auto tree = std::make_shared<const PointTree>(std::move(points));
-  return [tree, widths, spacing, count](const Box3& cell) {
+  return walls;
+}
+
+/// Width over the number of cells, within walls.
+SizeField::Limit limit_across(const WallWidths& walls, int count) {
+  const auto tree = std::make_shared<const PointTree>(walls.points);
+  return [tree, widths = walls.widths, spacing = walls.spacing, count](const Box3& cell) {
     const Vec3 extent = cell.extent();
     const double edge = std::max({extent.x, extent.y, extent.z});
     const double room = edge * std::max(1.0, 0.5 * count) + spacing;
     const Vec3 r = {room, room, room};
     double least = kInfinity;
     tree->visit_box({cell.lo - r, cell.hi + r}, [&](std::size_t i) {
-      const double width = (*widths)[i];
-      const double reach = width / 2 + cell.diagonal() / 2 + spacing;
+      const double reach = widths[i] / 2 + cell.diagonal() / 2 + spacing;
       if (distance(tree->points()[i], cell.center()) <= reach)
-        least = std::min(least, width / count);
+        least = std::min(least, kWidthRoom * widths[i] / count);
     });
     return least;
   };
 }
 
+/// The width that few walls are thinner than; 0 = there are none.
+double common_width(std::vector<double> widths) {
+  if (widths.empty()) return 0;
+  const auto at = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / kThinnest);
+  std::nth_element(widths.begin(), at, widths.end());
+  return *at;
+}
+
 /// The edge that a level of the lattice is to have exactly, in unit coordinates; 0 = any.
-double lattice_edge(const MeshOptions& wishes, const Target& target) {
+double lattice_edge(const MeshOptions& wishes, const Target& target, const WallWidths& walls) {
   const SizeWishes& w = wishes.sizes;
   const auto to_unit = [&](const Length& length) {
     return length.is_share ? length.value * target.diagonal()
@@ -187,7 +207,8 @@ double lattice_edge(const MeshOptions& wishes, const Target& target) {
   };
   if (w.size.is_given()) return to_unit(w.size);
   if (w.max_size.is_given()) return to_unit(w.max_size);
-  return w.rules.empty() ? 0 : to_unit(w.rules.front().size);
+  if (!w.rules.empty()) return to_unit(w.rules.front().size);
+  return w.across > 0 ? common_width(walls.widths) / w.across : 0;
 }
 
 }  // namespace
@@ -213,7 +234,10 @@ MeshOptions resolve_tolerance(MeshOptions options, double diagonal) {
   return options;
 }
 
-SizeField make_size_field(const MeshOptions& wishes, const Target& target, const Context& context) {
+namespace {
+
+SizeField make_size_field(const MeshOptions& wishes, const Target& target,
+                          const WallWidths& walls) {
   const SizeWishes& w = wishes.sizes;
   const Side side = wishes.fit.carve.side;
   const auto to_unit = [&](const Length& length) {
@@ -234,9 +258,11 @@ SizeField make_size_field(const MeshOptions& wishes, const Target& target, const
   for (const SizeRule& rule : w.rules)
     field.limits.push_back(
         limit_near(distance_to(rule, target), to_unit(rule.size), to_unit(rule.distance)));
-  if (w.across > 0) field.limits.push_back(limit_across(wishes, target, context));
+  if (!walls.widths.empty()) field.limits.push_back(limit_across(walls, w.across));
   return field;
 }
+
+}  // namespace
 
 std::optional<Box3> find_domain_box(const MeshOptions& wishes, const Box3& object) {
   const SizeWishes& w = wishes.sizes;
@@ -255,8 +281,12 @@ std::optional<Box3> find_domain_box(const MeshOptions& wishes, const Box3& objec
   return box;
 }
 
-std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target& target) {
-  double edge = lattice_edge(wishes, target);
+namespace {
+
+/// The lattice and the domain; absent: one root cube around the object.
+std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target& target,
+                                         const WallWidths& walls) {
+  double edge = lattice_edge(wishes, target, walls);
   if (wishes.fit.carve.side == Side::Inside) {
     if (edge <= 0) return {};
     return fit_lattice(target.surface(), edge, wishes.sizing.margin);
@@ -273,6 +303,13 @@ std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target
   const Vec3 extent = domain.extent();
   if (edge <= 0) edge = std::min({extent.x, extent.y, extent.z}) / kLeastRoots;
   return fill_box(domain, edge, kLeastRoots);
+}
+
+}  // namespace
+
+SizePlan plan_sizes(const MeshOptions& wishes, const Target& target, const Context& context) {
+  const WallWidths walls = measure_walls(wishes, target, context);
+  return {make_size_field(wishes, target, walls), choose_domain(wishes, target, walls)};
 }
 
 }  // namespace hexwright

@@ -82,8 +82,10 @@ Json describe_sizing(const SizingResult& s) {
 
 Json describe_edges(const MeshResult& r) {
   const EdgeLengths& e = r.edges;
-  return {{"edges", e.num_edges}, {"min", e.min}, {"median", e.median},
-          {"p95", e.high},        {"max", e.max}, {"tolerance_used", r.tolerance}};
+  Json edges = {{"edges", e.num_edges}, {"min", e.min}, {"median", e.median},
+                {"p95", e.high},        {"max", e.max}, {"tolerance_used", r.tolerance}};
+  if (r.size_asked > 0) edges["asked"] = r.size_asked;
+  return edges;
 }
 
 Json describe_complete(const CompleteReport& c) {
