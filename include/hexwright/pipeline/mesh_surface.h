@@ -31,7 +31,7 @@ struct MeshOptions {
   SizeWishes sizes;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;
+  FitOptions fit;  ///< its tolerance is the sizing's (plan.h)
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
