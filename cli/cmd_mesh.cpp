@@ -40,6 +40,9 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
     console.print(fmt::format("  {} of {} boundary vertices on the exact shape",
                               result.exact->num_exact, result.exact->num_verts));
   console.print_block(layers_to_text(result.layers));
+  if (cmd.options.sizes.any())
+    console.print(fmt::format("  edges: median {:.4g}, 95% up to {:.4g}, longest {:.4g}",
+                              result.edges.median, result.edges.high, result.edges.max));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
 }

@@ -20,6 +20,8 @@
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
 #include "hexwright/layers/layers.h"
+#include "hexwright/pipeline/size_wishes.h"
+#include "hexwright/quality/edge_lengths.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/target/target.h"
 
@@ -31,6 +33,8 @@ struct MeshOptions {
                           .features = {},
                           .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
   SizingOptions sizing;
+  bool is_tolerance_given = false;  ///< else `sizes` may raise sizing.tolerance
+  SizeWishes sizes;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
@@ -117,6 +121,9 @@ struct MeshResult {
   /// Per hex: the number of its wall layer, counted from the wall, 0 = in none; empty when none
   /// were asked for.
   IdVector<HexId, std::int32_t> layer;
+  EdgeLengths edges;
+  double size_asked = 0;  ///< the largest edge that was asked for everywhere; 0 = none was
+  double tolerance = 0;   ///< distance goal, share of the diagonal: as asked, or as sizes allow
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

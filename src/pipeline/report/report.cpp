@@ -100,6 +100,14 @@ Json describe_sizing(const SizingResult& s) {
   return sizing;
 }
 
+Json describe_edges(const MeshResult& r) {
+  const EdgeLengths& e = r.edges;
+  Json edges = {{"edges", e.num_edges}, {"min", e.min}, {"median", e.median},
+                {"p95", e.high},        {"max", e.max}, {"tolerance_used", r.tolerance}};
+  if (r.size_asked > 0) edges["asked"] = r.size_asked;
+  return edges;
+}
+
 Json describe_complete(const CompleteReport& c) {
   return {{"input_cells", c.num_input_cells},
           {"cells", c.num_output_cells},
@@ -280,6 +288,7 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"sizing", describe_sizing(result.sizing)},
                  {"complete", describe_complete(result.complete)},
                  {"cells_per_level", count_cells_per_level(result.grid)},
+                 {"edges", describe_edges(result)},
                  {"dual", describe_dual(result.dual)},
                  {"fit", describe_fit(result.fit)},
                  {"layers", describe_layers(result.layers)},
