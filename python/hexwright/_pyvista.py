@@ -1,12 +1,31 @@
-"""``surface.hexwright.mesh()`` on pyvista's surfaces; pyvista imports this by the package's entry point."""
+"""``surface.hexwright.mesh()`` on pyvista's surfaces, and ``pyvista.read`` of meshes and grids; pyvista imports this by
+the package's entry points."""
 from __future__ import annotations
 
 from typing import Any
 
 import pyvista
 
-from . import _stages
-from ._mesh import HexMesh
+from . import _grid, _stages
+from ._errors import BadInput
+from ._mesh import HexMesh, read
+
+
+def read_grid(path: str, **_: Any) -> pyvista.UnstructuredGrid:
+    """The cells of a grid, for ``pyvista.read("grid.cells")``."""
+    return _grid.read_grid(path).to_pyvista()
+
+
+def read_mesh(path: str, **keywords: Any) -> pyvista.DataSet:
+    """A MEDIT file for ``pyvista.read``: hexes with their regions and patches; what has none, as meshio sees it."""
+    try:
+        return read(path).to_pyvista()
+    except BadInput:
+        try:
+            return pyvista.read_meshio(path, **keywords)
+        except Exception:
+            pass
+        raise
 
 
 @pyvista.register_dataset_accessor("hexwright", pyvista.PolyData)

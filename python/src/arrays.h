@@ -14,6 +14,7 @@
 
 #include "hexwright/base/ids.h"
 #include "hexwright/base/vec3.h"
+#include "hexwright/mesh/element_ids.h"
 
 namespace hexwright::python {
 

@@ -8,6 +8,7 @@
 #include "hexwright/geometry/pose.h"
 
 #include "base/stage_log.h"
+#include "geometry/prepare/canonical_order.h"
 
 namespace hexwright {
 namespace {
@@ -26,6 +27,14 @@ struct Placed {
   double diagonal = 0;  ///< before it is turned: tolerances stay shares of the box that was given
 };
 
+void renumber_by_place(TriMesh& mesh) {
+  IdVector<TriId, TriId> source;
+  for (TriId t : mesh.tris.ids()) source.push_back(t);
+  put_in_canonical_order(mesh, source);
+  const auto group = mesh.group;
+  for (std::size_t t = 0; t < group.size(); ++t) mesh.group[TriId(t)] = group[source[TriId(t)]];
+}
+
 Placed place(TriMesh surface, Placement placement) {
   Placed placed;
   placed.frame = compute_unit_frame(surface);
@@ -34,6 +43,11 @@ Placed place(TriMesh surface, Placement placement) {
   if (placement == Placement::AsGiven) return placed;
   placed.frame.pose = find_pose(placed.mesh);
   placed.mesh = turn_surface(placed.mesh, placed.frame.pose, kPlaneTolerance);
+  const Rotation turn = find_canonical_turn(placed.mesh);
+  if (turn.is_identity()) return placed;
+  for (Vec3& p : placed.mesh.positions) p = turn.apply(p);
+  renumber_by_place(placed.mesh);
+  placed.frame.pose = compose(placed.frame.pose, turn);
   return placed;
 }
 

@@ -1,5 +1,6 @@
 #include "hexwright/geometry/pose.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,29 @@ TEST(Pose, SeesASmallTurn) {
     const Rotation pose = find_pose(rotated(stretched_cube({1, 1, 0.1}), about_z));
     EXPECT_NEAR(pose.axes[0].x, std::cos(a), 1e-9) << degrees;
   }
+}
+
+TEST(CanonicalTurn, LaysThePartDownByItsExtents) {
+  const TriMesh box = stretched_cube({1, 3, 2});
+  const Rotation turn = find_canonical_turn(box);
+  EXPECT_NEAR(det(turn.axes[0], turn.axes[1], turn.axes[2]), 1, 0);
+  EXPECT_EQ(bounding_box(rotated(box, turn)).extent(), (Vec3{3, 2, 1}));
+  EXPECT_TRUE(find_canonical_turn(stretched_cube({3, 2, 1})).is_identity());
+  EXPECT_TRUE(find_canonical_turn(TriMesh{}).is_identity());
+}
+
+TEST(CanonicalTurn, TellsTheEndsOfAConeApart) {
+  TriMesh cone = cylinder_surface(0, 3, 0, 0.3, 24);
+  for (Vec3& p : cone.positions) p = {p.x * (1 + p.z), p.y * (1 + p.z), p.z};
+  TriMesh flipped = cone;
+  for (Vec3& p : flipped.positions) p = {p.x, -p.y, -p.z};
+  const TriMesh a = rotated(cone, find_canonical_turn(cone));
+  const TriMesh b = rotated(flipped, find_canonical_turn(flipped));
+  for (const Vec3& p : a.positions) {
+    const auto is_near = [&](const Vec3& q) { return distance(p, q) < 1e-12; };
+    EXPECT_TRUE(std::ranges::any_of(b.positions, is_near));
+  }
+  EXPECT_EQ(compose(find_canonical_turn(cone), {}).axes, find_canonical_turn(cone).axes);
 }
 
 TEST(Pose, FollowsTheFlatFacesOfACylinderOnly) {

@@ -105,6 +105,19 @@ def test_pyvista_sees_the_same_mesh(cube_mesh):
     assert len(grid.hexwright.improve(rounds=1).hexes) == grid.n_cells
 
 
+def test_pyvista_reads_meshes_and_grids(cube, cube_mesh, tmp_path):
+    pyvista = pytest.importorskip("pyvista", minversion="0.48")
+    meshio = pytest.importorskip("meshio")
+    cube_mesh.save(tmp_path / "cube.mesh")
+    assert "scaled_jacobian" in pyvista.read(tmp_path / "cube.mesh").cell_data
+    grid = hw.grid(*cube)
+    grid.save(tmp_path / "cube.cells")
+    assert pyvista.read(tmp_path / "cube.cells").n_cells == len(grid)
+    tets = meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])])
+    tets.write(tmp_path / "tets.mesh")
+    assert pyvista.read(tmp_path / "tets.mesh").n_cells == 1
+
+
 def test_meshio_gets_names(cube_mesh, tmp_path):
     meshio = pytest.importorskip("meshio")
     mesh = cube_mesh.to_meshio()

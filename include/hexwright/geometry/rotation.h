@@ -25,4 +25,12 @@ struct Rotation {
   }
 };
 
+/// The rotation that does `first` and then `second`.
+inline Rotation compose(const Rotation& first, const Rotation& second) {
+  if (first.is_identity()) return second;
+  Rotation both;
+  for (int a = 0; a < 3; ++a) both.axes[a] = first.apply_inverse(second.axes[a]);
+  return both;
+}
+
 }  // namespace hexwright

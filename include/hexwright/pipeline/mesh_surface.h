@@ -27,8 +27,8 @@ struct MeshOptions {
                           .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
   SizingOptions sizing;
   CompleteOptions complete;
-  EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;
+  EvenOptions even;      ///< with Sizing::Deviation; off with the paper's
+  FitOptions fit;        ///< its tolerance is the sizing's (plan.h)
   LayersOptions layers;  ///< along walls, in the mesh of the best round
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass

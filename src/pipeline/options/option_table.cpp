@@ -61,6 +61,10 @@ OptionTable fit_rows(FitOptions& options) {
            "Vertices of curved patches: beside the surface, so that quads err to both sides of "
            "it, or on it"},
           options.patch_verts, kPatchVertsNames),
+      number_row({"lift-goal",
+                  "While the least scaled Jacobian is lower, vertices may leave the surface within "
+                  "the tolerance; 0 = never"},
+                 options.lift_goal, 0, 1),
   };
 }
 
@@ -169,6 +173,11 @@ OptionTable make_option_table(FitStageOptions& options) {
   OptionTable table = {flag_row({"no-carve", "The mesh already stands for the object: only fit it"},
                                 options.fit.do_carve, false)};
   append(table, fit_rows(options.fit));
+  table.push_back(share_row(
+      {"tolerance",
+       "How far vertices may leave the surface for the least scaled Jacobian's sake, as a "
+       "share of the bounding box's diagonal"},
+      options.fit.tolerance));
   table.push_back(feature_angle_row(options.target.features));
   return table;
 }
