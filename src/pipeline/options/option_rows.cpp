@@ -143,6 +143,7 @@ NamedOption share_row(RowText text, double& value) {
 NamedOption texts_row(RowText text, std::string form, std::function<void(const std::string&)> add) {
   NamedOption row = make_row(std::move(text), OptionKind::Texts, std::move(form), "none");
   row.set = [add = std::move(add)](const std::string& given) {
+    if (given == "none") return;
     std::size_t begin = 0;
     for (std::size_t end; (end = given.find(';', begin)) != std::string::npos; begin = end + 1)
       add(given.substr(begin, end - begin));

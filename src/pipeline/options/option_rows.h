@@ -29,7 +29,8 @@ NamedOption number_row(RowText text, double& value, double least, double most);
 /// Shown and read in degrees, kept in radians.
 NamedOption degrees_row(RowText text, double& radians, double least, double most);
 NamedOption share_row(RowText text, double& value);
-/// Calls `add` for every text that is given, and for each of several with ; between them. `form`: what they look like; for people.
+/// Calls `add` for every text that is given, and for each of several with ; between them; "none"
+/// is no text. `form`: what they look like; for people.
 NamedOption texts_row(RowText text, std::string form, std::function<void(const std::string&)> add);
 
 /// A row without its setter.
