@@ -25,6 +25,7 @@ struct Round {
   CompleteReport complete;
   DualReport dual;
   FitResult fit;
+  std::optional<CurvingReport> curving;  ///< of second order, as which the mesh is judged then
   Verdict verdict;
   /// Places on the features that finer cells can help to follow; none when enough is followed.
   std::vector<Vec3> refinable_features;
@@ -35,6 +36,10 @@ struct Round {
   std::vector<StageRecord> stages;
   RoundRecord record;
 };
+
+/// Gives the round's mesh its mid-nodes, on the exact shape where there is one, when second order
+/// is asked for.
+void curve_round(const RoundInput& input, Round& round, const ExactShape* exact = nullptr);
 
 /// Runs the stages on an already completed grid, without the lift.
 Round run_round(const RoundInput& input, CompleteResult completed);

@@ -18,6 +18,8 @@
 namespace hexwright {
 namespace {
 
+constexpr const char* kNone = "none";
+
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
   throw Error(ErrorCode::BadArgument, fmt::format("'{}' is {}", text, what));
 }
@@ -140,14 +142,30 @@ NamedOption share_row(RowText text, double& value) {
   return row;
 }
 
-NamedOption texts_row(RowText text, std::string form, std::function<void(const std::string&)> add) {
-  NamedOption row = make_row(std::move(text), OptionKind::Texts, std::move(form), "none");
-  row.set = [add = std::move(add)](const std::string& given) {
-    if (given == "none") return;
+NamedOption length_row(RowText text, Length& value) {
+  NamedOption row = make_row(std::move(text), OptionKind::Length, "above 0", kNone);
+  row.set = [&value](const std::string& given) { value = parse_length(given); };
+  return row;
+}
+
+NamedOption text_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read) {
+  NamedOption row = make_row(std::move(text), OptionKind::Text, std::move(form), kNone);
+  row.set = std::move(read);
+  return row;
+}
+
+NamedOption list_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read) {
+  NamedOption row = make_row(std::move(text), OptionKind::List, std::move(form), kNone);
+  row.set = [read = std::move(read)](const std::string& given) {
     std::size_t begin = 0;
-    for (std::size_t end; (end = given.find(';', begin)) != std::string::npos; begin = end + 1)
-      add(given.substr(begin, end - begin));
-    add(given.substr(begin));
+    while (true) {
+      const std::size_t end = std::min(given.find('\n', begin), given.size());
+      read(given.substr(begin, end - begin));
+      if (end == given.size()) return;
+      begin = end + 1;
+    }
   };
   return row;
 }
