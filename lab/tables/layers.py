@@ -10,7 +10,7 @@ from measures import measures, reasons, surfaces, table
 from pool import Job
 
 ROOT = Path(__file__).resolve().parents[2]
-WALLS = str(ROOT / "lab/inputs/walls.py")
+WALLS, FLOW = (str(ROOT / "lab/inputs" / name) for name in ("walls.py", "poiseuille.py"))
 PAGE = "layers.md"
 DATA = "models"
 SECONDS = 900
@@ -30,7 +30,9 @@ SHAPES = {  # options, and which patches are walls
 
 
 def jobs(args):
-    return [shape_job(*item) for item in SHAPES.items()] + [model_job(p, args.options) for p in surfaces(args.data)]
+    flows = [Job("Poiseuille", [[sys.executable, FLOW, "{program}", "--min-level", str(level)]], Path(FLOW), f"level {level}")
+             for level in (4, 5)]
+    return [shape_job(*item) for item in SHAPES.items()] + flows + [model_job(p, args.options) for p in surfaces(args.data)]
 
 
 def shape_job(shape, how):
@@ -87,6 +89,13 @@ def model_row(record):
             f"{seconds(report, 'layers') / max(fit, 1e-9):.2f}", "; ".join(reasons(record))]
 
 
+def flow_row(record):
+    report = record["steps"][-1].get("report")
+    if not report:
+        return [record["variant"], "no OpenFOAM", "", ""]
+    return [record["variant"], report["cells"], f"{100 * report['velocity_off']:.2f}", f"{100 * report['gradient_off']:+.2f}"]
+
+
 def summary(records):
     done = [r["steps"][-1]["report"] for r in records if measures(r) and r["steps"][-1]["report"]["layers"]["patches"]]
     shares = sorted(r["layers"]["coverage"] for r in done)
@@ -102,12 +111,16 @@ def summary(records):
 
 def page(records, args):
     shapes, models = ([r for r in records if r["variant"] == v] for v in ("shape", "outside"))
+    flows = [r for r in records if r["model"] == "Poiseuille"]
     return (f"# Wall layers\n\nMade by `{args.command}`. First layer: a twentieth of the wall's edges; growth 1.2. Covered: all layers, each at "
             "least half as high as asked for.\n\n## Shapes, 8 layers\n\nHeights by the shape's exact distance: the largest deviation, over the "
             "layers, of the median height from the one asked for. The last three columns are those of OpenFOAM's `checkMesh` (mesh OK; largest "
             "non-orthogonality in degrees; skewness).\n\n"
             + table(["shape", "hexes", "covered %", "height off %", "min SJ", "inverted", "OK", "non-orth.", "skewness"], "lrrrrrlrr",
                     map(shape_row, shapes))
+            + "\n## Laminar flow between two plates\n\nThe channel with `--min-level` 4 and 5, in OpenFOAM's simpleFoam: largest error of the "
+            "velocity over its largest value, and error of the pressure gradient, over the middle half of the channel.\n\n"
+            + table(["mesh", "cells", "velocity off %", "gradient off %"], "lrrr", map(flow_row, flows))
             + f"\n## Outside of the models, 5 layers\n\n{summary(models)}\n\n\"height %\" is the mean over the wish; \"lower\" the share of the "
             "area that is lower by more than 5%, by reason; \"time\" the seconds of the layers over those of the best round's fit.\n\n"
             + table(["model", "exit", "hexes", "covered %", "height %", "lower %", "min SJ before", "min SJ", "inverted", "time", "reason"],

@@ -67,8 +67,8 @@ class MeshOptions(TypedDict, total=False):
     """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
     layers: str | list[str]
     """Wall layers on the patches of this name (glob or regular expression, * for all): any three of first, growth, count and total; lengths in the surface's unit, as 1% of the diagonal or as 0.05h of the wall's edges; repeatable. Default: none."""
-    layers_min_coverage: float | str
-    """Least share of the walls' area with all layers at half of their height or more; less fails the gate. Default: 0%."""
+    layers_min_coverage: float
+    """Least share of the walls' area with all layers at half of their height or more; less fails the gate. Default: 0."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
     tangent_edges: bool

@@ -55,6 +55,7 @@ class Grower {
   void run() {
     slides_ = hold_boundary(state_);
     for (const SheetVert& vert : sheet_.verts) fix(vert.wall);
+    keep_offsets();
     place_sheet();
     limit_held_rims();
     push();
@@ -76,6 +77,24 @@ class Grower {
     state_.kind[v] = VertKind::Interior;
     state_.move[v] = MoveIn::Point;
     slides_[v] = 0;
+  }
+
+  /// Vertices of curved patches stay as far beside the surface as the fit put them: their quads err
+  /// to both sides of it.
+  void keep_offsets() {
+    IdVector<VertId, Vec3> normals(state_.num_verts());
+    for (const auto& quad : state_.quads)
+      for (VertId v : quad) normals[v] += quad_normal(state_.mesh.positions, quad);
+    parallel_for(
+        state_.num_verts(),
+        [&](std::size_t i) {
+          const VertId v(i);
+          if (!slides_[v]) return;
+          const Vec3& p = state_.mesh.positions[v];
+          const auto nearest = target_.tree.closest(p);
+          if (nearest) state_.offset[v] = dot(p - nearest->point, normalized(normals[v]));
+        },
+        64);
   }
 
   /// Inner vertices of the sheet: attached to planes, lines or points over the wall.

@@ -204,13 +204,32 @@ TEST(Layers, OfBothSidesAreInBothRegions) {
   EXPECT_GE(result.layers.coverage(), 0.99);
 }
 
-TEST(Layers, OfACylinderLeaveThroughItsEnds) {
-  TriMesh tube = cylinder_surface(0, 1, 0, 3, 512);
+/// Its side is the patch "pipe", its ends are "end.1" and "end.2".
+TriMesh named_tube(int segments) {
+  TriMesh tube = cylinder_surface(0, 1, 0, 3, segments);
   tube.group.assign(tube.num_tris(), 0);
   tube.group_names = {"pipe", "end"};
   for (TriId t : tube.tris.ids())
     for (VertId v : tube.tris[t])
-      if (v.index() >= 1024) tube.group[t] = 1;
+      if (v.index() >= 2 * static_cast<std::size_t>(segments)) tube.group[t] = 1;
+  return tube;
+}
+
+/// The patch that the sheets end in is curved: its vertices stay beside the surface as they were.
+TEST(Layers, EndOnACurvedPatchAsNearAsItWas) {
+  const TriMesh tube = named_tube(64);
+  MeshOptions options = layered("end=first:0.01,growth:1.2,count:6", 4);
+  const MeshResult with = mesh_surface(tube, options, {});
+  options.layers = {};
+  const MeshResult without = mesh_surface(tube, options, {});
+  EXPECT_GE(with.layers.coverage(), 0.99);
+  EXPECT_LE(with.verdict.distance->mean_two_way(), 1.05 * without.verdict.distance->mean_two_way());
+  EXPECT_LE(with.verdict.distance->max_two_way(), 1.05 * without.verdict.distance->max_two_way());
+  EXPECT_GE(with.verdict.features->length_share, without.verdict.features->length_share - 0.01);
+}
+
+TEST(Layers, OfACylinderLeaveThroughItsEnds) {
+  const TriMesh tube = named_tube(512);
   const std::string spec = "pipe=first:0.005,growth:1.2,count:8";
   MeshOptions options = layered(spec, 4);
   options.fit.patch_verts = PatchVerts::OnSurface;

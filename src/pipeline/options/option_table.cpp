@@ -76,7 +76,7 @@ OptionTable fit_rows(FitOptions& options) {
 }
 
 OptionTable layer_rows(LayersOptions& options) {
-  OptionTable table = {
+  return {
       list_row(
           {"layers",
            "Wall layers on the patches of this name (glob or regular expression, * for all): any "
@@ -84,13 +84,11 @@ OptionTable layer_rows(LayersOptions& options) {
            "the diagonal or as 0.05h of the wall's edges; repeatable"},
           "PATTERN=first:H,growth:R,count:N",
           [&options](const std::string& text) { options.specs.push_back(parse_layer_spec(text)); }),
-      share_row({"layers-min-coverage",
-                 "Least share of the walls' area with all layers at half of their height or more; "
-                 "less fails the gate"},
-                options.min_coverage),
+      number_row({"layers-min-coverage",
+                  "Least share of the walls' area with all layers at half of their height or more; "
+                  "less fails the gate"},
+                 options.min_coverage, 0, 1),
   };
-  table.back().fallback = "0%";
-  return table;
 }
 
 OptionTable prepare_rows(PrepareOptions& options) {
