@@ -13,12 +13,13 @@ PAGE = "polycube_pairs.md"
 DATA = "polycube"
 SECONDS = 900
 ADAPTIVE = {
-    "adaptive, stretch 10% alone": ["--max-stretch", "10%", "--ignore-distance"],
-    "adaptive, stretch 8% alone": ["--max-stretch", "8%", "--ignore-distance"],
+    "adaptive, stretch 5% alone": ["--max-stretch", "5%", "--ignore-distance"],
+    "adaptive, stretch 4% alone": ["--max-stretch", "4%", "--ignore-distance"],
     "adaptive, stretch 12%, distance 0.3%": ["--max-stretch", "12%"],
     "adaptive, defaults (2%, 0.3%)": [],
+    "adaptive, 25,000 hexes wanted": ["--cells", "25000"],
 }
-REGULAR = {f"regular, level {n}": ["--min-level", str(n), "--max-level", str(n), "--ignore-distance"] for n in range(1, 6)}
+REGULAR = {f"regular, level {n}": ["--min-level", str(n), "--max-level", str(n), "--ignore-distance"] for n in range(1, 5)}
 MOST_CELLS = "1000000"
 
 

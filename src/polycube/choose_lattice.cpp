@@ -5,15 +5,17 @@
 #include <limits>
 
 #include "polycube/charts.h"
+#include "polycube/repair_map.h"
 #include "polycube/sample_map.h"
 
 namespace hexwright::polycube {
 namespace {
 
-// Sampled, completed and dualised as the mesh will be, but not mapped.
-std::size_t count_hexes(const TetMesh& object, const TetMesh& polycube, PolycubeOptions options,
+// Repaired, sampled, completed and dualised as the mesh will be, but not mapped.
+std::size_t count_hexes(TetMesh object, const TetMesh& polycube, PolycubeOptions options,
                         const Context& context) {
-  const Lattice lattice = choose_lattice(object, polycube, options);
+  Lattice lattice = choose_lattice(object, polycube, options);
+  repair_map(object, lattice, context);
   const TetLocator locator(lattice.tets);
   const BoundaryMap boundary(lattice);
   const Grid sampled = sample_map({object, lattice, locator, boundary}, options, context);
@@ -48,6 +50,7 @@ double find_stretch(const TetMesh& object, const TetMesh& polycube, const Polycu
   constexpr double kEnough = 0.92, kTooMany = 1.02;  // of the hexes wanted
   constexpr double kCoarsest = 0.9;
   PolycubeOptions trial = options;
+  double too_tight = 0, too_loose = std::numeric_limits<double>::infinity();  // known to be
   double best = options.max_stretch, least_miss = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostTries; ++i) {
     context.check_cancelled();
@@ -60,8 +63,11 @@ double find_stretch(const TetMesh& object, const TetMesh& polycube, const Polycu
       best = trial.max_stretch;
     }
     if (share > kEnough && share <= kTooMany) break;
+    (share > 1 ? too_tight : too_loose) = trial.max_stretch;
     trial.max_stretch =
         std::min(kCoarsest, trial.max_stretch * std::clamp(std::cbrt(share / 0.97), 0.25, 4.0));
+    if (trial.max_stretch <= too_tight || trial.max_stretch >= too_loose)
+      trial.max_stretch = std::min(kCoarsest, std::sqrt(too_tight * too_loose));
   }
   return best;
 }

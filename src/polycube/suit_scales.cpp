@@ -190,10 +190,15 @@ std::vector<MapSample> sample_tets(const TetMesh& object, const TetMesh& polycub
   return samples;
 }
 
-// Expected cells when every tet is cut to the level that its length asks for.
-double price(const AxisScales& scales, const std::vector<MapSample>& samples, int min_level,
-             int max_level) {
-  std::vector<double> cells(static_cast<std::size_t>(max_level) + 1, 0);
+struct Price {
+  double cost = 0;
+  int level = 0;  // that most cells are on
+};
+
+// Expected cells when every tet is cut to the level that its length asks for, however deep.
+Price price(const AxisScales& scales, const std::vector<MapSample>& samples, int min_level) {
+  constexpr int kDeepest = 20;
+  std::array<double, kDeepest + 1> cells{};
   for (const MapSample& sample : samples) {
     double longest = 0, per_volume = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -202,12 +207,27 @@ double price(const AxisScales& scales, const std::vector<MapSample>& samples, in
       per_volume *= slope;
     }
     int level = min_level;
-    while (level < max_level && longest > sample.limit * static_cast<double>(1 << level)) ++level;
+    while (level < kDeepest && longest > sample.limit * static_cast<double>(1 << level)) ++level;
     cells[static_cast<std::size_t>(level)] +=
         sample.volume * per_volume * static_cast<double>(1LL << (3 * level));
   }
+  const auto most = std::max_element(cells.begin(), cells.end());
   const double total = std::accumulate(cells.begin(), cells.end(), 0.0);
-  return total + kTransition * (total - *std::max_element(cells.begin(), cells.end()));
+  return {total + kTransition * (total - *most), static_cast<int>(most - cells.begin())};
+}
+
+// The coarsest of the cheapest. Where the greatest level stands against the criteria, only spacings
+// that are whole levels finer than the coarsest one: the least cells are then as large as on that.
+const ScaleCandidate& choose(const std::vector<ScaleCandidate>& tried,
+                             const std::vector<int>& deepest, int max_level) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ScaleCandidate& c : tried) least = std::min(least, c.cost);
+  const auto is_cheap = [&](const ScaleCandidate& c) { return c.cost <= kNearlyEqual * least; };
+  auto best = std::find_if(tried.begin(), tried.end(), is_cheap);  // coarse ones come first
+  if (deepest[static_cast<std::size_t>(best - tried.begin())] <= max_level) return *best;
+  for (std::size_t i = 0; i < tried.size(); i += kStepsPerLevel)
+    if (i == 0 || tried[i].cost < best->cost) best = tried.begin() + static_cast<std::ptrdiff_t>(i);
+  return *best;
 }
 
 }  // namespace
@@ -220,6 +240,8 @@ std::vector<ScaleCandidate> suit_scales(const AxisPlanes& planes, const TetMesh&
   std::vector<ScaleCandidate> best;  // one per `follow`
   for (double follow : kFollow) {
     std::vector<ScaleCandidate> tried;
+    std::vector<int>
+        deepest;  // of each: the level from the coarsest spacing that most cells are on
     for (int step = 0; step < kSpacings; ++step) {
       ScaleCandidate c;
       c.spacing = coarsest * std::exp2(-static_cast<double>(step) / kStepsPerLevel);
@@ -227,16 +249,12 @@ std::vector<ScaleCandidate> suit_scales(const AxisPlanes& planes, const TetMesh&
       if (c.depth > options.max_level) break;
       c.scales = densities.scales(c.spacing, follow);
       if (step > 0 && !is_within_limit(c.scales)) break;
-      c.cost = price(c.scales, samples, std::max(0, options.min_level - c.depth),
-                     options.max_level - c.depth);
+      const Price p = price(c.scales, samples, std::max(0, options.min_level - c.depth));
+      c.cost = p.cost;
+      deepest.push_back(c.depth + p.level);
       tried.push_back(std::move(c));
     }
-    double least = std::numeric_limits<double>::infinity();
-    for (const ScaleCandidate& c : tried) least = std::min(least, c.cost);
-    // Coarse ones come first.
-    best.push_back(*std::find_if(tried.begin(), tried.end(), [&](const ScaleCandidate& c) {
-      return c.cost <= kNearlyEqual * least;
-    }));
+    best.push_back(choose(tried, deepest, options.max_level));
   }
   // The even lattice stays last: nothing that was positive folds on it that would not on others.
   std::stable_sort(

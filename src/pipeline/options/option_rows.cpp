@@ -97,13 +97,13 @@ NamedOption whole_row(RowText text, int& value, int least, int most) {
   return row;
 }
 
-NamedOption count_row(RowText text, std::size_t& value) {
-  NamedOption row =
-      make_row(std::move(text), OptionKind::Whole, "1 or more", fmt::to_string(value));
-  row.set = [&value](const std::string& given) {
+NamedOption count_row(RowText text, std::size_t& value, std::size_t least) {
+  NamedOption row = make_row(std::move(text), OptionKind::Whole, fmt::format("{} or more", least),
+                             fmt::to_string(value));
+  row.set = [&value, least](const std::string& given) {
     const auto number = read_whole<std::uint64_t>(given);
-    if (!number || *number == 0)
-      refuse(given, "no whole number from 1 up to 2^64; write digits only");
+    if (!number || *number < least)
+      refuse(given, fmt::format("no whole number from {} up to 2^64; write digits only", least));
     value = *number;
   };
   return row;

@@ -25,7 +25,7 @@ NamedOption flag_row(RowText text, bool& value, bool value_when_given = true);
 /// Bounds are allowed values.
 NamedOption whole_row(RowText text, int& value, int least, int most);
 /// From 1 up.
-NamedOption count_row(RowText text, std::size_t& value);
+NamedOption count_row(RowText text, std::size_t& value, std::size_t least = 1);
 NamedOption number_row(RowText text, double& value, double least, double most);
 /// Shown and read in degrees, kept in radians.
 NamedOption degrees_row(RowText text, double& radians, double least, double most);

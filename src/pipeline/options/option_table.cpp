@@ -271,7 +271,7 @@ OptionTable make_option_table(PolycubeOptions& options) {
       count_row({"cells",
                  "Hexes wanted, about: the stretch follows from it, and the surface ends up where "
                  "that leads; 0 = off"},
-                options.target_hexes),
+                options.target_hexes, 0),
       share_row({"max-surface-error",
                  "Cells are split where the mesh would miss the surface by more than this share of "
                  "the diagonal, and again where it does"},
