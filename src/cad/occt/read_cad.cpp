@@ -23,21 +23,26 @@ namespace hexwright {
 namespace cad {
 namespace {
 
-/// While it lives, memory faults in OpenCASCADE become exceptions; then the caller's handlers are
-/// back.
+/// While it lives, memory faults in OpenCASCADE become exceptions; requests to stop stay with the
+/// caller's handlers, and in the end all signals do.
 class SignalGuard {
  public:
   SignalGuard() {
     for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], nullptr, &before_[k]);
     OSD::SetSignal(OSD_SignalMode_Set, false);
+    restore(kNumFaults);
   }
-  ~SignalGuard() {
-    for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &before_[k], nullptr);
-  }
+  ~SignalGuard() { restore(0); }
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 
  private:
+  void restore(std::size_t first) const {
+    for (std::size_t k = first; k < kSignals.size(); ++k)
+      sigaction(kSignals[k], &before_[k], nullptr);
+  }
+
+  static constexpr std::size_t kNumFaults = 5;
   static constexpr std::array kSignals = {SIGSEGV, SIGBUS, SIGILL,  SIGFPE, SIGSYS,
                                           SIGHUP,  SIGINT, SIGQUIT, SIGTERM};
   std::array<struct sigaction, kSignals.size()> before_;
