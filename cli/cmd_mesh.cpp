@@ -22,7 +22,8 @@ namespace {
 
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
-  std::string input, output, format, report, picture, view, grid, features;
+  std::string input, output, report, picture, view, grid, features;
+  ElementChoice elements;
   std::vector<std::string> patches;
   bool is_strict = false;
   MeshOptions options;
@@ -34,6 +35,7 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
   for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
+  if (result.curving) console.print_block(curving_to_text(*result.curving));
   if (result.exact)
     console.print(fmt::format("  {} of {} boundary vertices on the exact shape",
                               result.exact->num_exact, result.exact->num_verts));
@@ -49,7 +51,7 @@ void run(const MeshCommand& cmd, Program& program) {
   require_extension(cmd.picture, {".png"});
   require_extension(cmd.view, {".html"});
   require_extension(cmd.grid, grid_extensions());
-  require_mesh_format(cmd.output, cmd.format);
+  require_mesh_format(cmd.output, cmd.elements, cmd.options.order);
   const Context context = program.console.start(cmd.input);
   MeshOptions options = cmd.options;
   std::optional<CadInput> cad;
@@ -63,8 +65,6 @@ void run(const MeshCommand& cmd, Program& program) {
     load_features(cmd.features, surface, options.target.features);
     surface = name_patches(std::move(surface), cmd.patches, program);
   }
-  // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
   MeshResult result = naming_file(cmd.input, [&] {
     return cad ? mesh_cad(*cad, options, context) : mesh_surface(surface, options, context);
   });
@@ -76,7 +76,7 @@ void run(const MeshCommand& cmd, Program& program) {
   if (cad) info.cad = summarize_cad(cad->model, cad->surface);
   if (result.mesh.num_hexes() > 0) {
     info.changed_names =
-        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
+        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.elements);
     write_cut_picture(cmd.picture, result.mesh);
     if (!cmd.view.empty())
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
@@ -100,7 +100,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
   sub->add_flag("--strict", cmd->is_strict, "Whatever is warned of fails the gate (exit code 1)");
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
-  add_format_option(*sub, cmd->format);
+  add_element_options(*sub, cmd->elements);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   add_picture_option(*sub, cmd->picture);
   sub->add_option("--view", cmd->view, "Write a page to look into the mesh with (.html)");
@@ -113,6 +113,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       "  hexwright mesh part.stl -o part.vtu\n"
       "  hexwright mesh part.stl -o part.vtu --tolerance 0.2% --report part.json --picture "
       "part.png\n"
+      "  hexwright mesh part.stl -o part.inp --order 2\n"
       "  hexwright mesh part.obj -o part.inp --sizing thickness --max-level 6");
   sub->callback([cmd, &program] { run(*cmd, program); });
 }

@@ -107,17 +107,23 @@ void add_picture_option(CLI::App& cmd, std::string& picture) {
   cmd.add_option("--picture", picture, "Write a cut through the mesh as PNG");
 }
 
-void require_mesh_format(const std::string& path, const std::string& format) {
+void require_mesh_format(const std::string& path, const ElementChoice& choice, int order) {
+  if (order == 1 && choice.nodes_per_hex > 8)
+    throw CLI::ValidationError("--nodes", "hexes of " + std::to_string(choice.nodes_per_hex) +
+                                              " nodes are of second order; add --order 2");
   try {
-    check_hex_mesh_format(path, format);
+    check_hex_mesh_format(path, choice.format, order, choice.nodes_per_hex);
   } catch (const Error& error) {
     throw CLI::ValidationError(error.what());
   }
 }
 
-void add_format_option(CLI::App& cmd, std::string& format) {
-  cmd.add_option("--format", format, "Format of the mesh, where the extension does not tell")
+void add_element_options(CLI::App& cmd, ElementChoice& choice) {
+  cmd.add_option("--format", choice.format, "Format of the mesh, where the extension does not tell")
       ->check(CLI::IsMember(hex_mesh_formats()));
+  cmd.add_option("--nodes", choice.nodes_per_hex,
+                 "Of second order, nodes of a hex: 20 or 27 [what is usual in the format]")
+      ->check(CLI::IsMember({20, 27}));
 }
 
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {

@@ -11,6 +11,7 @@
 #include "hexwright/pipeline/option_table.h"
 
 #include "commands.h"
+#include "output.h"
 
 namespace hexwright::cli {
 
@@ -40,10 +41,10 @@ void add_picture_option(CLI::App& cmd, std::string& picture);
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// The same for hex meshes: the format by its name, or by the extension when the name is empty.
-void require_mesh_format(const std::string& path, const std::string& format = {});
+void require_mesh_format(const std::string& path, const ElementChoice& choice = {}, int order = 1);
 
-/// --format, of hex meshes.
-void add_format_option(CLI::App& cmd, std::string& format);
+/// --format and --nodes, of hex meshes.
+void add_element_options(CLI::App& cmd, ElementChoice& choice);
 
 /// --patch, rules that name parts of the surface.
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);

@@ -69,10 +69,11 @@ void check_outputs(std::initializer_list<std::string> outputs,
 }
 
 std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
-                                                 Console& console, const std::string& format) {
+                                                 Console& console, const ElementChoice& choice) {
   WriteHexOptions options;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
-  options.format = format;
+  options.format = choice.format;
+  options.nodes_per_hex = choice.nodes_per_hex;
   options.names_by_place = true;
   return write_mesh(path, mesh, console, options);
 }

@@ -19,10 +19,11 @@ ALLOWED = {
     "relax": {"base", "mesh", "geometry", "target", "quality"},
     "dual": {"base", "mesh", "geometry", "target", "grid", "quality", "relax"},
     "fit": {"base", "mesh", "geometry", "target", "quality", "relax"},
+    "curving": {"base", "mesh", "geometry", "target", "quality"},
     "polycube": {"base", "mesh", "geometry", "target", "grid", "dual", "fit", "quality", "relax"},
     "io": {"base", "mesh", "grid"},
     "render": {"base", "mesh", "geometry", "quality", "io"},
-    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "polycube", "io", "render", "cad"},
+    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "curving", "polycube", "io", "render", "cad"},
 }
 # Rooms inside a module, lowest first: a room includes itself and those before it.
 ROOMS = {

@@ -127,23 +127,23 @@ nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
                    const std::optional<AnyArray>& features, const Call& call) {
   auto options = read_options<FitStageOptions>(call);
   add_features(surface, features, options.target.features);
-  FitResult result;
+  FitStageResult result;
   Verdict verdict;
   const Warnings warnings = run_stage(call.run, [&](const Context& context) {
     const Target target = make_target(surface, options.target, context);
-    result = fit(to_unit(background, target.frame), target, options.fit, context);
-    if (result.mesh.num_hexes() == 0)
+    result = run_fit_stage(to_unit(background, target.frame), target, options, context);
+    if (result.fit.mesh.num_hexes() == 0)
       throw Error(ErrorCode::BadGeometry,
                   "no hex lies inside the surface; the mesh and the surface must overlap and the "
                   "hexes be smaller than the object");
     JudgeOptions judged;
     if (options.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
-    verdict = judge(result.mesh, target, judged, context);
+    verdict = judge(result.fit.mesh, target, judged, context);
     result.to_world(target.frame);
     verdict.to_world(target.frame);
   });
-  const std::string report = fit_to_json(result.report);
-  return nb::make_tuple(std::move(result.mesh), report, verdict_to_json(verdict), warnings);
+  const std::string report = fit_to_json(result);
+  return nb::make_tuple(std::move(result.fit.mesh), report, verdict_to_json(verdict), warnings);
 }
 
 nb::tuple check(const HexMesh& mesh, const TriMesh* surface,

@@ -7,6 +7,7 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/fit/carve.h"
+#include "hexwright/geometry/surface_parts.h"
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/target/target.h"
 
@@ -83,6 +84,7 @@ struct FitResult {
   FitReport report;
   /// What lift_fit() goes on from; empty when there is nothing to lift.
   std::shared_ptr<const FitMemory> memory;
+  std::shared_ptr<const SurfaceParts> parts;  ///< of the labels; null for an empty mesh
 
   void to_world(const Similarity& frame);
 };

@@ -12,6 +12,7 @@
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
 #include "hexwright/cad/cad_surface.h"
+#include "hexwright/curving/curve_mesh.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
 #include "hexwright/geometry/exact_shape.h"
@@ -31,7 +32,14 @@ struct MeshOptions {
   SizingOptions sizing;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;  ///< its tolerance is the sizing's (plan.h)
+  FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
+  /// Of the elements: 2 gives edges nodes on the surface (see curving/curve_mesh.h), and puts the
+  /// vertices of curved patches there.
+  int order = 1;
+
+  /// Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by
+  /// itself, with vertices of its own: the gap stays. Negative: twice the tolerance; 0: never.
+  double gap = -1;
   CadSurfaceOptions cad;  ///< of CAD files: see mesh_cad()
   /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
   /// boundary vertices are put onto it in the end. May be null.
@@ -94,13 +102,16 @@ struct MeshResult {
   /// How the part was turned to lie along the lattice (see Placement): the rows are the axes, in
   /// the world, along which the cells of `grid` and `sizing.grid` stand on their frame's origin.
   Rotation pose;
+  /// Per hex: the depth of the grid's cell that its centre lies in; 0 outside of the grid.
+  IdVector<HexId, std::int8_t> levels;
   Grid grid;            ///< the completed grid of the best round
   SizingResult sizing;  ///< the a-priori grid
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
-  std::optional<ExactReport> exact;  ///< with MeshOptions::exact
-  std::vector<StageRecord> stages;   ///< those of the best round, after the common ones
+  std::optional<CurvingReport> curving;  ///< of a mesh of second order
+  std::optional<ExactReport> exact;      ///< with MeshOptions::exact
+  std::vector<StageRecord> stages;       ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;

@@ -8,6 +8,7 @@
 #include "hexwright/cad/cad_surface.h"
 #include "hexwright/io/set_table.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/stages.h"
 #include "hexwright/polycube/polycube.h"
 
 namespace hexwright {
@@ -32,7 +33,9 @@ std::string mesh_options_to_json(const MeshOptions& options);
 std::string sizing_to_json(const SizingResult& sizing);
 std::string complete_to_json(const CompleteReport& complete);
 std::string dual_to_json(const DualReport& dual);
-std::string fit_to_json(const FitReport& fit);
+std::string fit_to_json(const FitStageResult& fit);
+/// A line or two for people.
+std::string curving_to_text(const CurvingReport& curving);
 /// Tets count from 1 in it, as in the files.
 std::string polycube_to_json(const PolycubeReport& polycube);
 

@@ -90,6 +90,12 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   count(round.stages.back(), "carved", round.fit.report.num_hexes_carved);
   count(round.stages.back(), "padded", round.fit.report.num_hexes_padded);
 
+  if (input.options.order == 2 && round.fit.parts)
+    round.curving = run_stage(round.stages, "curve", input.context, [&] {
+      return curve_mesh(round.fit.mesh, {input.target.tree, *round.fit.parts, plan.fit.carve.side},
+                        input.context);
+    });
+
   if (round.fit.mesh.num_hexes() > 0)
     round.verdict = run_stage(round.stages, "judge", input.context, [&] {
       return judge(round.fit.mesh, input.target, plan.judge, input.context);

@@ -25,6 +25,7 @@ struct Round {
   CompleteReport complete;
   DualReport dual;
   FitResult fit;
+  std::optional<CurvingReport> curving;  ///< of second order, as which the mesh is judged then
   Verdict verdict;
   /// Places on the features that finer cells can help to follow; none when enough is followed.
   std::vector<Vec3> refinable_features;
