@@ -39,8 +39,18 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
   if (result.exact)
     console.print(fmt::format("  {} of {} boundary vertices on the exact shape",
                               result.exact->num_exact, result.exact->num_verts));
+  console.print_block(layers_to_text(result.layers));
+  if (cmd.options.sizes.any())
+    console.print(fmt::format("  edges: median {:.4g}, 95% up to {:.4g}, longest {:.4g}",
+                              result.edges.median, result.edges.high, result.edges.max));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
+}
+
+/// The wall layer of each hex, when layers were asked for.
+std::vector<HexField> layer_field(const MeshResult& result) {
+  if (result.layer.empty()) return {};
+  return {{"layer", {result.layer.begin(), result.layer.end()}}};
 }
 
 /// A mesh that fails the gate is written all the same, with its failures on stderr and exit code 1:
@@ -77,8 +87,8 @@ void run(const MeshCommand& cmd, Program& program) {
   RunInfo info{cmd.input, cmd.output, num_threads()};
   if (cad) info.cad = summarize_cad(cad->model, cad->surface);
   if (result.mesh.num_hexes() > 0) {
-    info.changed_names =
-        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.elements);
+    info.changed_names = write_mesh_with_quality(cmd.output, result.mesh, program.console,
+                                                 cmd.elements, layer_field(result));
     write_cut_picture(cmd.picture, result.mesh);
     if (!cmd.view.empty())
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());

@@ -25,6 +25,11 @@ std::string type_name(const NamedOption& row) {
       return row.allowed;
     case OptionKind::Share:
       return "SHARE";
+    case OptionKind::Length:
+      return "LENGTH or SHARE";
+    case OptionKind::Text:
+    case OptionKind::List:
+      return row.allowed;
     case OptionKind::Degrees:
       return "DEG";
     default:
@@ -38,6 +43,7 @@ auto naming_option(const std::string& name, Read&& read) {
   try {
     return read();
   } catch (const Error& e) {
+    if (e.code() != ErrorCode::BadArgument) throw;  // about a file
     throw CLI::ValidationError(name, e.what());
   }
 }
@@ -54,7 +60,16 @@ void add_options(CLI::App& cmd, const OptionTable& table) {
     const auto set = [name, set = row.set](const std::string& text) {
       naming_option(name, [&] { set(text); });
     };
-    if (row.kind == OptionKind::Flag)
+    if (row.kind == OptionKind::List)
+      cmd.add_option_function<std::vector<std::string>>(
+             name,
+             [set](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) set(text);
+             },
+             row.help)
+          ->allow_extra_args(false)
+          ->type_name(row.allowed);
+    else if (row.kind == OptionKind::Flag)
       cmd.add_flag_callback(
           name, [set] { set("true"); }, row.help);
     else

@@ -69,8 +69,10 @@ void check_outputs(std::initializer_list<std::string> outputs,
 }
 
 std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
-                                                 Console& console, const ElementChoice& choice) {
+                                                 Console& console, const ElementChoice& choice,
+                                                 const std::vector<HexField>& fields) {
   WriteHexOptions options;
+  options.fields = fields;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
   options.format = choice.format;
   options.nodes_per_hex = choice.nodes_per_hex;

@@ -25,6 +25,8 @@ void write_view(const std::string& path, const MeshResult& result, const TriMesh
   options.verdict = &result.verdict;
   options.surface = &tree;
   options.fields.push_back({"level", {result.levels.begin(), result.levels.end()}});
+  if (!result.layer.empty())
+    options.fields.push_back({"layer", {result.layer.begin(), result.layer.end()}});
   write_view(path, result.mesh, options);
 }
 

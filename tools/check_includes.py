@@ -22,8 +22,9 @@ ALLOWED = {
     "curving": {"base", "mesh", "geometry", "target", "quality"},
     "polycube": {"base", "mesh", "geometry", "target", "grid", "dual", "fit", "quality", "relax"},
     "io": {"base", "mesh", "grid"},
+    "layers": {"base", "mesh", "geometry", "target", "quality", "relax", "fit", "io"},
     "render": {"base", "mesh", "geometry", "quality", "io"},
-    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "curving", "polycube", "io", "render", "cad"},
+    "pipeline": {"base", "mesh", "geometry", "target", "grid", "dual", "quality", "relax", "fit", "curving", "polycube", "io", "layers", "render", "cad"},
 }
 # Rooms inside a module, lowest first: a room includes itself and those before it.
 ROOMS = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, TypedDict
 
 
@@ -18,6 +19,26 @@ class MeshOptions(TypedDict, total=False):
     """No cell is deeper. Default: 9."""
     max_cells: int
     """Stop refining, at a whole level, before the grid has more cells. Default: 2000000."""
+    size: float | str
+    """Edge of the cells, everywhere: no longer, and at most one level finer. Around an object that of the cells at its surface. Default: none."""
+    max_size: float | str
+    """No cell is larger; finer ones where the surface asks for them. Default: none."""
+    min_size: float | str
+    """No cell is finer. Default: none."""
+    refine: str | Sequence[str]
+    """Cells near a place are no larger than SIZE, and within DISTANCE of it; repeated. Default: none."""
+    growth: float
+    """Largest growth of cells over distance: 1.2 is gentle; 0 = as balance leaves it. Default: 0."""
+    across: int
+    """At least so many cells across the thickness of the solid, or of gaps outside; 0 = as the tolerance asks. Default: 0."""
+    cells: int
+    """Find the size that gives about so many hexes; 0 = not. Default: 0."""
+    sizes: str | Sequence[float]
+    """A file of sizes: the options above and 'box' or 'margin', by name. Default: none."""
+    box: str | Sequence[float]
+    """The domain around the object. Default: none."""
+    margin: str | Sequence[float]
+    """Room around the object instead, on all sides, per axis or per side: lengths, or 5L for five times its longest side. Default: none."""
     placement: Literal["as-given", "faces"]
     """The lattice along the part's faces, however they are turned (inside only), or along the given axes. Default: faces."""
     parts: Literal["as-is", "separate", "unite"]
@@ -44,6 +65,10 @@ class MeshOptions(TypedDict, total=False):
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
     order: int
     """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
+    layers: str | list[str]
+    """Wall layers on the patches of this name (glob or regular expression, * for all): any three of first, growth, count and total; lengths in the surface's unit, as 1% of the diagonal or as 0.05h of the wall's edges; repeatable. Default: none."""
+    layers_min_coverage: float | str
+    """Least share of the walls' area with all layers at half of their height or more; less fails the gate. Default: 0%."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
     tangent_edges: bool

@@ -18,7 +18,7 @@ class Option(NamedTuple):
     """One option of a stage."""
 
     name: str  #: keyword in Python; with hyphens for underscores, and two before, that of the command line
-    kind: str  #: flag, whole, number, share (of the diagonal), degrees or choice
+    kind: str  #: flag, whole, number, share (of the diagonal), length, degrees, choice, text or list
     allowed: str  #: the range, or the names with ``|`` between them
     default: str
     help: str
@@ -72,6 +72,9 @@ def _to_text(name: str, value: Any) -> str:
         return repr(value)
     if isinstance(value, str):
         return value
+    if isinstance(value, (list, tuple)):  # rules one per line, numbers side by side
+        parts = [_to_text(name, part) for part in value]
+        return ("\n" if all(isinstance(part, str) for part in value) else ",").join(parts)
     raise BadInput(f"{name}: {type(value).__name__} is neither a number, a string nor a truth value")
 
 

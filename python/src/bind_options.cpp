@@ -27,8 +27,14 @@ const char* kind_name(OptionKind kind) {
       return "number";
     case OptionKind::Share:
       return "share";
+    case OptionKind::Length:
+      return "length";
     case OptionKind::Degrees:
       return "degrees";
+    case OptionKind::Text:
+      return "text";
+    case OptionKind::List:
+      return "list";
     case OptionKind::Choice:
       return "choice";
   }

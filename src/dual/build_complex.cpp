@@ -130,7 +130,7 @@ Grid split_roots(const Grid& grid) {
     for (auto& x : cell.index) x /= split.cell_size(c);
     cells.push_back(cell);
   }
-  return make_grid({grid.frame.origin, grid.frame.root_size / 2}, roots, cells);
+  return make_grid({grid.frame.origin, grid.frame.root_size / 2, grid.frame.stretch}, roots, cells);
 }
 
 // Domains one root thick, and the rare refined corners that nothing else repairs, are meshed on the

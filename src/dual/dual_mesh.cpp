@@ -40,7 +40,9 @@ void to_world(const Grid& grid, HexMesh& mesh) {
   const double unit = grid.frame.root_size / static_cast<double>(1 << grid.finest_level);
   parallel_for(mesh.num_verts(), [&](std::size_t v) {
     Vec3& p = mesh.positions[VertId(v)];
-    p = grid.frame.origin + p * unit;
+    const Vec3& stretch = grid.frame.stretch;
+    p = grid.frame.origin +
+        Vec3{p.x * unit * stretch.x, p.y * unit * stretch.y, p.z * unit * stretch.z};
   });
 }
 

@@ -215,6 +215,25 @@ void name_by_groups(const TriMesh& surface, HexMesh& mesh) {
     labels.patch_names.resize(count_ids(labels.quads, &LabeledQuad::patch, 0), name_of_part(mesh));
 }
 
+/// Names of patches and curves are those of the whole surface.
+bool asks_by_name(const SizeWishes& sizes) {
+  return std::ranges::any_of(sizes.rules, [](const SizeRule& rule) {
+    return rule.where == SizeRule::Where::Patch || rule.where == SizeRule::Where::Curve;
+  });
+}
+
+/// Shares of the whole's diagonal as lengths.
+void fix_lengths(SizeWishes& sizes, double diagonal) {
+  const auto fix = [&](Length& length) { length = {length.in(diagonal), false}; };
+  fix(sizes.size);
+  fix(sizes.max_size);
+  fix(sizes.min_size);
+  for (SizeRule& rule : sizes.rules) {
+    fix(rule.size);
+    fix(rule.distance);
+  }
+}
+
 }  // namespace
 
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
@@ -234,7 +253,8 @@ std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
 
 double plan_gap(const MeshOptions& options, const Target& target) {
   const bool is_alone = options.fit.carve.side == Side::Inside && options.gap != 0 &&
-                        options.target.prepare.parts != Parts::AsIs;
+                        options.target.prepare.parts != Parts::AsIs && options.layers.empty() &&
+                        !asks_by_name(options.sizes);
   if (!is_alone) return -1;
   return (options.gap > 0 ? options.gap : kGapOfTolerance * options.sizing.tolerance) *
          target.diagonal();
@@ -242,8 +262,9 @@ double plan_gap(const MeshOptions& options, const Target& target) {
 
 MeshOptions plan_part(const MeshOptions& options, const Target& whole, const TriMesh& surface) {
   MeshOptions part = options;
-  const double ratio =
-      bounding_box(surface).diagonal() / whole.frame.length_to_world(whole.diagonal());
+  const double diagonal = whole.frame.length_to_world(whole.diagonal());
+  const double ratio = bounding_box(surface).diagonal() / diagonal;
+  fix_lengths(part.sizes, diagonal);
   const double tolerance = options.sizing.tolerance / ratio;
   part.sizing.tolerance = std::max(options.sizing.tolerance, std::min(tolerance, kCoarsest));
   part.edge_tolerance /= ratio;

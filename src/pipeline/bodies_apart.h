@@ -14,7 +14,8 @@ namespace hexwright {
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap);
 
 /// How near bodies must be to each other to be meshed apart, in the target's coordinates; negative
-/// where they never are: with the background meshed as well, or surfaces left as they are.
+/// where they never are: with the background meshed as well, with wall layers or sizes asked for by
+/// name, or surfaces left as they are.
 double plan_gap(const MeshOptions& options, const Target& target);
 
 /// What is wished of a part: lengths are those of the whole, whose shares become shares of the

@@ -10,12 +10,15 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/grid/locate.h"
 #include "hexwright/pipeline/plan.h"
+#include "hexwright/pipeline/size_plan.h"
 
 #include "base/stage_log.h"
 #include "pipeline/bodies_apart.h"
 #include "pipeline/loop/budgets.h"
 #include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
+#include "pipeline/loop/outer_faces.h"
+#include "pipeline/size_search.h"
 
 namespace hexwright {
 namespace {
@@ -32,9 +35,11 @@ void record_sizing(const SizingResult& sizing, StageRecord& stage) {
 /// less deep.
 CompleteResult complete_within_budget(const RoundInput& input, MeshResult& result) {
   SizingOptions sizing = input.plan.sizing;
+  const SizeField& sizes = input.plan.sizes;
   while (true) {
-    result.sizing = run_stage(result.stages, "sizing", input.context,
-                              [&] { return build_grid(input.target, sizing, input.context); });
+    result.sizing = run_stage(result.stages, "sizing", input.context, [&] {
+      return build_grid(input.target, sizing, input.context, sizes.empty() ? nullptr : &sizes);
+    });
     record_sizing(result.sizing, result.stages.back());
     CompleteResult completed = run_stage(result.stages, "complete", input.context,
                                          [&] { return even_out(input, result.sizing.grid); });
@@ -42,7 +47,7 @@ CompleteResult complete_within_budget(const RoundInput& input, MeshResult& resul
     if (completed.grid.num_cells() <= input.plan.budgets.background) return completed;
     const std::string exceeded = say_exceeded(
         Budget::Background, static_cast<double>(completed.grid.num_cells()), input.plan.budgets);
-    if (result.sizing.reached_level <= sizing.min_level)
+    if (result.sizing.reached_level <= sizing.min_level || sizes.is_exact)
       throw Error(
           ErrorCode::OutOfResources,
           fmt::format("{}, or lower the minimum level, which is {}", exceeded, sizing.min_level));
@@ -86,6 +91,30 @@ IdVector<HexId, std::int8_t> find_levels(const HexMesh& mesh, const Grid& grid) 
   return levels;
 }
 
+/// Grid, hexes, fit; again where the fit missed. In the world's coordinates.
+MeshResult mesh_target(const Target& target, const MeshOptions& options, const Context& context) {
+  MeshResult result;
+  result.surface = target.diagnosis;
+  result.pose = target.frame.pose;
+  result.stages = target.stages;
+  const StagePlan stages = plan(options, target, context);
+  const RoundInput input{target, options, stages, context};
+  CompleteResult completed = complete_within_budget(input, result);
+  Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  best = layer_round(input, std::move(best), result);
+  if (options.exact) result.exact = put_on_exact_shape(input, best);
+  apply_gate(input, best, result);
+  take_round(std::move(best), result);
+  result.levels = find_levels(result.mesh, result.grid);
+  if (stages.sizing.domain && options.fit.carve.side != Side::Inside)
+    name_outer_faces(box_of(*stages.sizing.domain), result.mesh);
+  result.edges = measure_edges(result.mesh);
+  result.tolerance = options.sizing.tolerance;
+  result.to_world(target.frame);
+  check_after_mapping(target.frame, result);
+  return result;
+}
+
 /// Passes everything on, and keeps each warning once.
 Context collect_warnings(const Context& caller, std::vector<std::string>& warnings) {
   Context context = caller;
@@ -95,25 +124,6 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
     caller.warn(message);
   };
   return context;
-}
-
-/// Grid, hexes, fit; again where the fit missed.
-MeshResult mesh_target(const Target& target, const MeshOptions& options, const Context& context) {
-  MeshResult result;
-  result.surface = target.diagnosis;
-  result.pose = target.frame.pose;
-  result.stages = target.stages;
-  const StagePlan stages = plan(options, target);
-  const RoundInput input{target, options, stages, context};
-  CompleteResult completed = complete_within_budget(input, result);
-  Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
-  if (options.exact) result.exact = put_on_exact_shape(input, best);
-  apply_gate(input, best, result);
-  take_round(std::move(best), result);
-  result.levels = find_levels(result.mesh, result.grid);
-  result.to_world(target.frame);
-  check_after_mapping(target.frame, result);
-  return result;
 }
 
 /// Bodies that are too near to each other for one grid each by itself, then judged together.
@@ -131,12 +141,14 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
   result.surface = target.diagnosis;
   result.surface.notes.push_back(fmt::format(
       "bodies that touch or nearly touch are meshed each by itself, in {} groups", parts.size()));
-  result.verdict =
-      judge(to_unit(result.mesh, target.frame), target, plan(options, target).judge, context);
+  result.verdict = judge(to_unit(result.mesh, target.frame), target,
+                         plan(options, target, context).judge, context);
   for (const std::string& failure : result.verdict.failures)
     if (std::ranges::find(result.failures, failure) == result.failures.end())
       result.failures.push_back(failure);
   result.verdict.to_world(target.frame);
+  result.edges = measure_edges(result.mesh);
+  result.tolerance = options.sizing.tolerance;
   return result;
 }
 
@@ -149,15 +161,24 @@ void MeshResult::to_world(const Similarity& frame) {
   sizing.to_world(frame);
   fit.to_world(frame);
   if (curving) curving->to_world(frame);
+  layers.to_world(frame);
+  edges.to_world(frame);
 }
 
-MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& caller) {
+MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const Context& caller) {
   const Stopwatch clock;
+  const MeshOptions options = resolve_sizes(wishes, surface);
   const auto watch = caller.watch();
   std::vector<std::string> warnings;
   const Context context = collect_warnings(caller, warnings);
   const Target target = make_target(surface, plan_target(options), context);
-  MeshResult result = mesh_bodies(target, options, context);
+  MeshResult result = search_sizes(
+      target, options,
+      [&](const MeshOptions& sized, const Context& of_run) {
+        return mesh_bodies(target, sized, of_run);
+      },
+      context);
+  result.size_asked = wishes.sizes.size.in(bounding_box(surface).diagonal());
   result.warnings = std::move(warnings);
   result.seconds = clock.seconds();
   return result;

@@ -175,6 +175,35 @@ class Mesh(CliTest):
             self.run_binary("mesh", self.cube, "-o", out, *COARSE)
             self.run_binary("check", out, self.cube)
 
+    def test_sizes_are_met_and_the_report_says_so(self):
+        out, report, rules = self.path / "a.vtu", self.path / "a.json", self.path / "sizes.json"
+        self.run_binary("mesh", self.cube, "-o", out, "--size", "0.2", "--report", report)
+        data = json.loads(report.read_text())
+        self.assertEqual(data["hexes"], 125)
+        self.assertLess(data["edges"]["max"], 1.05 * 0.2)
+        rules.write_text('{"size": 0.2, "refine": ["box:0,0,0,0.3,0.3,0.3=0.1"]}')
+        self.run_binary("mesh", self.cube, "-o", out, "--sizes", rules, "--report", report)
+        self.assertGreater(json.loads(report.read_text())["hexes"], 200)
+        rules.write_text('{"sise": 0.2}')
+        done = self.run_binary("mesh", self.cube, "-o", out, "--sizes", rules, expect=3)
+        self.assertIn("sise", done.stderr)
+
+    def test_contradicting_sizes_are_refused_by_name(self):
+        for given in (["--size", "0.2", "--max-size", "0.1"], ["--cells", "100", "--size", "0.2"],
+                      ["--min-size", "1", "--refine", "ball:0,0,0,1=0.1"], ["--box", "0,0,0,1,1,1", "--side", "inside"]):
+            done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *given, expect=2)
+            for option in given[::2]:
+                self.assertIn(option, done.stderr)
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--size", "0.001", expect=4)
+        self.assertIn("--max-hexes", done.stderr)
+
+    def test_the_sides_of_a_domain_are_named_patches(self):
+        out = self.path / "a.vtu"
+        self.run_binary("mesh", self.cube, "-o", out, "--side", "outside", "--margin", "1,2,1.5", "--size", "0.25")
+        text = self.run_binary("check", out).stdout
+        for name, area in (("xmin", 20), ("ymax", 12), ("zmin", 15)):
+            self.assertRegex(text, rf"patch +{name}: \d+ quads, area {area},")
+
     def test_an_interrupt_leaves_no_output(self):
         out = self.path / "a.vtu"
         process = subprocess.Popen([str(BINARY), "mesh", str(self.cube), "-o", str(out), "--min-level", "7",

@@ -122,7 +122,7 @@ TEST(Sizing, ThicknessMeetsThePapersCriterion) {
   const auto diameter = compute_shape_diameter(surface, {}, {});
   for (CellId c : r.grid.cells.ids()) {
     const Box3 box = cell_box(r.grid, c);
-    const NodeCube node{box.center(), box.extent().x};
+    const NodeCube node{box.center(), box.extent().x, box.extent()};
     double least = 1e300;
     for (TriId t : surface.tris.ids())
       if (meets_cube(node.to_local(surface.corners(t)), 0.5)) least = std::min(least, diameter[t]);

@@ -32,17 +32,28 @@ struct GridCell {
 };
 static_assert(sizeof(GridCell) == 16);
 
-/// Where the lattice lies in the world: root cube (i,j,k) covers origin + root_size *
-/// [i,i+1]x[j,j+1]x[k,k+1].
+/// Where the lattice lies in the world: root cube (i,j,k) covers origin + root_size * stretch *
+/// [i,i+1]x[j,j+1]x[k,k+1], axis by axis.
 struct GridFrame {
   Vec3 origin;
   double root_size = 1;
+  /// At most 1: cells are bricks where lengths along an axis are to be met that hold no whole
+  /// number of cubes. Sizes are compared by a cell's longest edge.
+  Vec3 stretch = {1, 1, 1};
+  /// Edge of a root along an axis.
+  double root_edge(int axis) const { return root_size * stretch[axis]; }
   /// From unit coordinates; along the axes of the frame's pose.
   void to_world(const Similarity& frame) {
     origin = frame.to_world(origin);
     root_size = frame.length_to_world(root_size);
   }
   friend bool operator==(const GridFrame&, const GridFrame&) = default;
+};
+
+/// A lattice and which of its roots there are, sorted (z, y, x).
+struct GridDomain {
+  GridFrame frame;
+  std::vector<LatticeCoord> roots;
 };
 
 struct Grid {
@@ -62,7 +73,8 @@ struct Grid {
 /// World position of a point of the finest lattice: the only place where lattice becomes world.
 inline Vec3 lattice_to_world(const Grid& grid, const LatticeCoord& p) {
   const double h = grid.frame.root_size / static_cast<double>(1 << grid.finest_level);
-  return grid.frame.origin + Vec3{p[0] * h, p[1] * h, p[2] * h};
+  const Vec3& s = grid.frame.stretch;
+  return grid.frame.origin + Vec3{p[0] * h * s.x, p[1] * h * s.y, p[2] * h * s.z};
 }
 
 /// World box of a leaf.

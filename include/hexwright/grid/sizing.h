@@ -4,12 +4,14 @@
 // opposite walls).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/grid/grid.h"
+#include "hexwright/grid/size_field.h"
 #include "hexwright/mesh/tri_mesh.h"
 #include "hexwright/target/target.h"
 
@@ -33,6 +35,8 @@ struct SizingOptions {
   int max_level = 9;        ///< none is deeper
   double min_edge = 0.005;  ///< Deviation: no cell is split below this edge, share of the diagonal
   std::size_t max_cells = 2'000'000;  ///< budget of leaves
+  /// The root cubes; absent: one around the surface, with the margin.
+  std::optional<GridDomain> domain;
 };
 
 struct SizingResult {
@@ -50,13 +54,17 @@ inline constexpr const char* kSplitReasons[] = {"minimum level", "deviation", "w
 /// Builds the grid breadth first, so that a budget stops at a level and not in a corner.
 ///
 /// The surface should be welded (prepare_surface) and about unit size: groups of triangles end at
-/// unshared edges. The number of cells never falls when the tolerance does. Same result for any
-/// thread count. Errors: BadArgument (an option out of range), BadGeometry (no triangles).
+/// unshared edges. The number of cells never falls when the tolerance does. No node is split below
+/// what `sizes`, in the surface's coordinates, allows; that cells are as small as it asks for is up
+/// to refine_to_sizes(). Same result for any thread count. Errors: BadArgument (an option out of
+/// range), BadGeometry (no triangles).
 SizingResult build_grid(const SurfaceTree& surface, const FeatureGraph& features,
-                        const SizingOptions& options, const Context& context);
+                        const SizingOptions& options, const Context& context,
+                        const SizeField* sizes = nullptr);
 /// Of the target's surface and features, in the target's unit coordinates. Shares are of its
 /// diagonal, also where turning has changed the box.
-SizingResult build_grid(const Target& target, const SizingOptions& options, const Context& context);
+SizingResult build_grid(const Target& target, const SizingOptions& options, const Context& context,
+                        const SizeField* sizes = nullptr);
 
 /// The root cube around a box: centred, with the margin on each side.
 GridFrame root_frame(const Box3& box, double margin);

@@ -19,6 +19,9 @@
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
+#include "hexwright/layers/layers.h"
+#include "hexwright/pipeline/size_wishes.h"
+#include "hexwright/quality/edge_lengths.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/target/target.h"
 
@@ -30,6 +33,8 @@ struct MeshOptions {
                           .features = {},
                           .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
   SizingOptions sizing;
+  bool is_tolerance_given = false;  ///< else `sizes` may raise sizing.tolerance
+  SizeWishes sizes;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
   FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
@@ -44,6 +49,7 @@ struct MeshOptions {
   /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
   /// boundary vertices are put onto it in the end. May be null.
   std::shared_ptr<const ExactShape> exact;
+  LayersOptions layers;  ///< along walls, in the mesh of the best round
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -111,7 +117,14 @@ struct MeshResult {
   FitReport fit;
   std::optional<CurvingReport> curving;  ///< of a mesh of second order
   std::optional<ExactReport> exact;      ///< with MeshOptions::exact
-  std::vector<StageRecord> stages;       ///< those of the best round, after the common ones
+  LayersReport layers;
+  /// Per hex: the number of its wall layer, counted from the wall, 0 = in none; empty when none
+  /// were asked for.
+  IdVector<HexId, std::int32_t> layer;
+  EdgeLengths edges;
+  double size_asked = 0;  ///< the largest edge that was asked for everywhere; 0 = none was
+  double tolerance = 0;   ///< distance goal, share of the diagonal: as asked, or as sizes allow
+  std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;

@@ -21,17 +21,21 @@ enum class OptionKind {
   Whole,    ///< a whole number: digits only
   Number,   ///< a finite number
   Share,    ///< of the bounding box's diagonal, above 0 and below 1: "0.5%" or "0.005"
+  Length,   ///< above 0, in the surface's unit, or a share of the diagonal: "2" or "1%"
   Degrees,  ///< an angle
-  Choice    ///< one of a few names
+  Choice,   ///< one of a few names
+  Text,     ///< in a form of its own
+  List      ///< the same, repeated: one per line
 };
 
 /// One option, bound to the struct that its table was made for.
 struct NamedOption {
   std::string name;  ///< "max-level": --max-level on the command line, max_level in Python
   OptionKind kind = OptionKind::Flag;
-  std::string allowed;   ///< the range, or the names with '|' between them; for people
-  std::string fallback;  ///< the default as text; "false" for a flag
-  std::string help;      ///< one sentence without its full stop
+  std::string allowed;  ///< the range, or the names with '|' between them; for people
+  std::string
+      fallback;      ///< the default as text; "false" for a flag, "none" where nothing is asked for
+  std::string help;  ///< one sentence without its full stop
   /// Takes the value as text. Throws Error{BadArgument}, without the option's name, when it is not
   /// what the option allows; the struct is unchanged then.
   std::function<void(const std::string& text)> set;

@@ -19,6 +19,7 @@ struct Budgets {
 /// Options of the stages as they run, in the target's coordinates.
 struct StagePlan {
   SizingOptions sizing;
+  SizeField sizes;
   CompleteOptions complete;
   EvenOptions even;
   DualOptions dual;
@@ -27,8 +28,9 @@ struct StagePlan {
   Budgets budgets;
 };
 
-/// Pure: the same wishes and target give the same plan.
-StagePlan plan(const MeshOptions& wishes, const Target& target);
+/// Pure: the same wishes and target give the same plan. Errors: BadArgument when wishes about sizes
+/// do not fit the target.
+StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& context = {});
 
 /// What a target is asked for. With the background meshed as well it stays as given, because the
 /// box around it would turn.

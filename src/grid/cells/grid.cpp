@@ -238,6 +238,9 @@ void sort_cells(Grid& grid) {
 std::optional<Issue> Grid::find_problem() const {
   if (!is_finite(frame.origin) || !std::isfinite(frame.root_size) || frame.root_size <= 0)
     return Issue{"the frame's origin must be finite and its root size positive"};
+  for (int a = 0; a < 3; ++a)
+    if (!(frame.stretch[a] > 0 && frame.stretch[a] <= 1))
+      return Issue{"the frame's stretch must be above 0, at most 1"};
   if (finest_level < 0 || finest_level > kMaxGridLevel)
     return Issue{fmt::format("finest_level {} is outside 0..{}", finest_level, kMaxGridLevel)};
   if (auto issue = find_root_problem(roots)) return issue;

@@ -16,7 +16,8 @@ std::optional<LatticeCoord> lattice_cell_at(const Grid& grid, const Vec3& p) {
   constexpr double kLimit = 1 << 30;
   LatticeCoord q;
   for (int axis = 0; axis < 3; ++axis) {
-    const double x = std::floor((p[axis] - grid.frame.origin[axis]) / h);
+    const double x =
+        std::floor((p[axis] - grid.frame.origin[axis]) / (h * grid.frame.stretch[axis]));
     if (!(std::abs(x) < kLimit)) return std::nullopt;
     q[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(x);
   }

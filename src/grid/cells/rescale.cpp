@@ -70,7 +70,7 @@ class Rescaler {
 
 Grid rescale_grid(const Grid& grid, double factor, double least_root_size,
                   std::span<const char> is_needed) {
-  if (grid.roots.size() != 1)
+  if (grid.roots.size() != 1 || !(grid.frame.stretch == Vec3{1, 1, 1}))
     throw Error(ErrorCode::BadArgument, "only a grid of a single root cube can be rescaled");
   if (!(factor > 0.5 && factor <= 1))
     throw Error(ErrorCode::BadArgument, "the factor of rescaling must be above 0.5, at most 1");

@@ -141,7 +141,8 @@ std::optional<Issue> find_unbalanced_by_two(const NestedSets& sets, const Lattic
 bool is_same_frame(const GridFrame& a, const GridFrame& b) {
   constexpr double kTolRelRoot = 1e-6;
   const double room = kTolRelRoot * a.root_size;
-  return std::abs(a.root_size - b.root_size) <= room && distance(a.origin, b.origin) <= room;
+  return std::abs(a.root_size - b.root_size) <= room && distance(a.origin, b.origin) <= room &&
+         distance(a.stretch, b.stretch) <= kTolRelRoot;
 }
 
 }  // namespace

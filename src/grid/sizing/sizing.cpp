@@ -36,7 +36,11 @@ struct Outcome {
 
 NodeCube cube_of(const GridFrame& frame, int level, const LatticeCoord& index) {
   const double h = frame.root_size / static_cast<double>(1 << level);
-  return {frame.origin + Vec3{(index[0] + 0.5) * h, (index[1] + 0.5) * h, (index[2] + 0.5) * h}, h};
+  const Vec3& s = frame.stretch;
+  return {frame.origin + Vec3{(index[0] + 0.5) * h * s.x, (index[1] + 0.5) * h * s.y,
+                              (index[2] + 0.5) * h * s.z},
+          h,
+          {h * s.x, h * s.y, h * s.z}};
 }
 
 SizingCandidates make_root_candidates(const SizingScene& scene) {
@@ -71,8 +75,8 @@ SizingCandidates select_near(const SizingScene& scene, const NodeCube& node, dou
 /// The tests one node is put through, cheapest first.
 class Criteria {
  public:
-  Criteria(const SizingScene& scene, const SizingOptions& options)
-      : scene_(scene), options_(options) {}
+  Criteria(const SizingScene& scene, const SizingOptions& options, const SizeField* sizes)
+      : scene_(scene), options_(options), sizes_(sizes) {}
 
   Outcome evaluate(const NodeCube& node, int level, const SizingCandidates& inherited) const {
     Outcome outcome;
@@ -85,6 +89,7 @@ class Criteria {
  private:
   Reason find_reason(const NodeCube& node, int level, const SizingCandidates& near) const {
     if (!touches_surface(node, near.tris)) return Reason::Keep;
+    if (sizes_ && node.edge / 2 < sizes_->least(node.box())) return Reason::Keep;
     if (level < options_.min_level) return Reason::MinLevel;
     if (options_.sizing == Sizing::Thickness)
       return is_thicker_than_half(node, near.tris) ? Reason::Thickness : Reason::Keep;
@@ -122,6 +127,7 @@ class Criteria {
 
   const SizingScene& scene_;
   const SizingOptions& options_;
+  const SizeField* sizes_;  ///< null: cells may be of any size
 };
 
 std::vector<Outcome> evaluate_level(const Criteria& criteria, const GridFrame& frame, int level,
@@ -177,20 +183,24 @@ GridFrame root_frame(const Box3& box, double margin) {
 }
 
 SizingResult build_grid(const SurfaceTree& tree, const FeatureGraph& features,
-                        const SizingOptions& options, const Context& context) {
+                        const SizingOptions& options, const Context& context,
+                        const SizeField* sizes) {
   const auto watch = context.watch();
   check_options(tree.surface(), options);
   const SizingScene scene = make_sizing_scene(tree, features, options, context);
-  const Criteria criteria(scene, options);
-  const GridFrame frame = root_frame(tree.box(), options.margin);
+  const Criteria criteria(scene, options, sizes);
+  const GridDomain domain =
+      options.domain.value_or(GridDomain{root_frame(tree.box(), options.margin), {{0, 0, 0}}});
+  const GridFrame& frame = domain.frame;
 
   SizingResult result;
   result.splits_by_reason.assign(std::size(kSplitReasons), 0);
   std::vector<CellSpec> leaves;
-  std::vector<Node> nodes = {{}};
+  std::vector<Node> nodes;
+  for (const LatticeCoord& root : domain.roots) nodes.push_back({root, 0});
   std::vector<Outcome> parents(1);
   parents[0].candidates = make_root_candidates(scene);
-  std::size_t num_cells = 1;
+  std::size_t num_cells = nodes.size();
   for (int level = 0; !nodes.empty(); ++level) {
     context.check_cancelled();
     context.progress("sizing", static_cast<double>(level) / (options.max_level + 1));
@@ -216,18 +226,18 @@ SizingResult build_grid(const SurfaceTree& tree, const FeatureGraph& features,
     nodes = split_level(nodes, level, outcomes, leaves);
     parents = std::move(outcomes);
   }
-  result.grid = make_grid(frame, {{0, 0, 0}}, leaves);
+  result.grid = make_grid(frame, domain.roots, leaves);
   context.progress("sizing", 1);
   return result;
 }
 
-SizingResult build_grid(const Target& target, const SizingOptions& options,
-                        const Context& context) {
+SizingResult build_grid(const Target& target, const SizingOptions& options, const Context& context,
+                        const SizeField* sizes) {
   SizingOptions of_box = options;
   const double turned = target.diagonal() / target.tree.box().diagonal();
   of_box.tolerance *= turned;
   of_box.min_edge *= turned;
-  return build_grid(target.tree, target.features, of_box, context);
+  return build_grid(target.tree, target.features, of_box, context, sizes);
 }
 
 }  // namespace hexwright

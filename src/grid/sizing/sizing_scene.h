@@ -44,8 +44,13 @@ struct SizingCandidates {
 /// Working there makes every tolerance relative to the node, wherever the model lies.
 struct NodeCube {
   Vec3 center;
-  double edge = 1;
-  Vec3 to_local(const Vec3& p) const { return (p - center) / edge; }
+  double edge = 1;  ///< the longest
+  Vec3 edges = {1, 1, 1};
+  Vec3 to_local(const Vec3& p) const {
+    const Vec3 d = p - center;
+    return {d.x / edges.x, d.y / edges.y, d.z / edges.z};
+  }
+  Box3 box() const { return {center - edges * 0.5, center + edges * 0.5}; }
   std::array<Vec3, 3> to_local(const std::array<Vec3, 3>& p) const {
     return {to_local(p[0]), to_local(p[1]), to_local(p[2])};
   }

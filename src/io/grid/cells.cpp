@@ -55,7 +55,8 @@ class CellsReader {
     file_.cells.push_back(cell);
   }
 
-  /// "# roots i j k ..." and "# origin x y z size h"; any other comment is passed over.
+  /// "# roots i j k ..." and "# origin x y z size h", perhaps with "stretch a b c"; any other
+  /// comment is passed over.
   void read_comment(std::string_view text, std::size_t line) {
     text.remove_prefix(text.find('#') + 1);
     TextScanner words(text, source_.name);
@@ -80,6 +81,7 @@ class CellsReader {
       file_.frame.root_size = words.real("the size of a root cube");
       if (!(file_.frame.root_size > 0))
         words.fail("the size of a root cube must be positive; correct the line");
+      if (words.line_token() == "stretch") file_.frame.stretch = words.line_point("the stretch");
     }
   }
 
@@ -112,7 +114,9 @@ std::string cells_text(const Grid& grid) {
   constexpr std::size_t kRootsPerLine = 16;
   TextWriter out;
   out.text("# origin ").point(grid.frame.origin);
-  out.text(" size ").real(grid.frame.root_size).text("\n");
+  out.text(" size ").real(grid.frame.root_size);
+  if (!(grid.frame.stretch == Vec3{1, 1, 1})) out.text(" stretch ").point(grid.frame.stretch);
+  out.text("\n");
   const bool is_single = grid.roots.size() == 1 && grid.roots[0] == LatticeCoord{0, 0, 0};
   for (std::size_t r = 0; !is_single && r < grid.roots.size(); ++r) {
     out.text(r % kRootsPerLine == 0 ? "# roots" : "");

@@ -235,7 +235,7 @@ void write_root_coordinates(const Grid& grid, const HtgTreeBuilder& builder, Vtk
     const auto a = static_cast<std::size_t>(axis);
     for (std::int64_t i = 0; i <= builder.num_roots[a]; ++i)
       coords.push_back(grid.frame.origin[axis] +
-                       grid.frame.root_size * static_cast<double>(builder.low_root[a] + i));
+                       grid.frame.root_edge(axis) * static_cast<double>(builder.low_root[a] + i));
     xml.array<double>(kNames[axis], "Float64", 1, coords, tuples(coords.size()));
   }
   xml.close("Grid");

@@ -99,7 +99,8 @@ std::vector<SizedPlace> find_crowded_misses(const Grid& grid, const TriMesh& sur
   return places;
 }
 
-Grid split_to_sizes(Grid grid, std::span<const SizedPlace> places, int deepest) {
+Grid split_to_sizes(Grid grid, std::span<const SizedPlace> places, int deepest,
+                    const SizeField& sizes) {
   while (true) {
     std::vector<char> marks(grid.num_cells(), 0);
     bool any = false;
@@ -107,6 +108,7 @@ Grid split_to_sizes(Grid grid, std::span<const SizedPlace> places, int deepest) 
       const CellId leaf = find_leaf_at(grid, place.position);
       if (!leaf.is_valid() || grid.cells[leaf].level >= deepest) continue;
       if (cell_box(grid, leaf).extent().x <= place.cell_size) continue;
+      if (!sizes.empty() && !may_split(grid, leaf, sizes)) continue;
       marks[leaf.index()] = 1;
       any = true;
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hexwright/geometry/feature_graph.h"
-#include "hexwright/grid/grid.h"
+#include "hexwright/grid/size_field.h"
 #include "hexwright/quality/judge.h"
 
 namespace hexwright {
@@ -25,7 +25,9 @@ std::vector<SizedPlace> find_crowded_misses(const Grid& grid, const TriMesh& sur
                                             const FeatureGraph& features,
                                             const FeatureRecovery& recovery, double least_size);
 
-/// Splits the leaves that hold the places until they are no larger than asked, or `deepest`.
-Grid split_to_sizes(Grid grid, std::span<const SizedPlace> places, int deepest);
+/// Splits the leaves that hold the places until they are no larger than asked, or `deepest`, or as
+/// small as the field allows.
+Grid split_to_sizes(Grid grid, std::span<const SizedPlace> places, int deepest,
+                    const SizeField& sizes = {});
 
 }  // namespace hexwright

@@ -160,13 +160,7 @@ ExactReport put_on_exact_shape(const RoundInput& input, Round& round) {
   if (round.fit.mesh.num_hexes() == 0) return report;
   report = run_stage(round.stages, "exact boundary", input.context,
                      [&] { return ExactMover(input, round.fit.mesh).run(); });
-  if (round.curving && round.fit.parts)
-    round.curving = run_stage(round.stages, "curve", input.context, [&] {
-      return curve_mesh(round.fit.mesh,
-                        {input.target.tree, *round.fit.parts, input.plan.fit.carve.side,
-                         input.options.exact.get(), input.target.frame},
-                        input.context);
-    });
+  curve_round(input, round, input.options.exact.get());
   round.verdict = run_stage(round.stages, "judge", input.context, [&] {
     return judge(round.fit.mesh, input.target, input.plan.judge, input.context);
   });

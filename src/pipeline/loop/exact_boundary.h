@@ -9,8 +9,8 @@ namespace hexwright {
 /// the curves' ends and the curves, others onto the surface. Each goes the whole way, or half of it
 /// and less, as far as no hex around falls below a scaled Jacobian of 0.4 (or the mesh's
 /// least, between that and 0.5), none below that becomes worse, and none loses the proof of a
-/// positive Jacobian. Mid-nodes of a mesh of second order follow. Judges the mesh again. Requires options.exact. The report's lengths are
-/// shares of the diagonal.
+/// positive Jacobian. Mid-nodes of a mesh of second order follow. Judges the mesh again. Requires
+/// options.exact. The report's lengths are shares of the diagonal.
 ExactReport put_on_exact_shape(const RoundInput& input, Round& round);
 
 }  // namespace hexwright

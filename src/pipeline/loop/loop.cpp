@@ -104,7 +104,7 @@ std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const
   record.num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
   if (record.num_marked == 0) return {};
   return split_to_sizes(split_cells(round.grid, marks), round.crowded_features,
-                        deepest_level(input.options));
+                        deepest_level(input.options), input.plan.sizes);
 }
 
 /// The budget that a next grid would exceed, as a sentence; empty = none.
@@ -161,20 +161,48 @@ std::optional<double> scale_for_mean(const RoundInput& input, const Round& round
   return std::max(kLeastScale, scale);
 }
 
-std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
-  const int deepest = deepest_level(input.options);
-  std::vector<char> marks =
-      mark_cells_with_points(round.grid, collect_places(input, round, false), deepest);
-  if (std::find(marks.begin(), marks.end(), 1) != marks.end()) return marks;
-  if (has_expected_topology(input, round))
-    return mark_cells_with_points(round.grid, collect_places(input, round, true), deepest);
-  // Near enough everywhere, and still pierced or bridged: at parts and gaps about a cell thick.
-  return mark_cells_with_points(round.grid, round.fit.report.carve.thin, deepest);
+namespace {
+
+/// Leaves that hold a point and may be split.
+std::vector<char> mark_splittable(const RoundInput& input, const Grid& grid,
+                                  std::span<const Vec3> points) {
+  std::vector<char> marks = mark_cells_with_points(grid, points, deepest_level(input.options));
+  if (input.plan.sizes.empty()) return marks;
+  for (CellId c : grid.cells.ids())
+    if (marks[c.index()]) marks[c.index()] = may_split(grid, c, input.plan.sizes);
+  return marks;
 }
 
-CompleteResult even_out(const RoundInput& input, const Grid& grid, bool is_even) {
+}  // namespace
+
+std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
+  std::vector<char> marks = mark_splittable(input, round.grid, collect_places(input, round, false));
+  if (std::find(marks.begin(), marks.end(), 1) != marks.end()) return marks;
+  if (has_expected_topology(input, round))
+    return mark_splittable(input, round.grid, collect_places(input, round, true));
+  // Near enough everywhere, and still pierced or bridged: at parts and gaps about a cell thick.
+  return mark_splittable(input, round.grid, round.fit.report.carve.thin);
+}
+
+/// Leaves that are meshed or beside those: what lies farther outside an object whose inside is
+/// meshed is carved away.
+Grid keep_to_sizes(const RoundInput& input, const Grid& grid) {
+  const SizeField& sizes = input.plan.sizes;
+  if (sizes.empty()) return grid;
+  const SurfaceTree& tree = input.target.tree;
+  const auto is_needed = [&](const Box3& box) {
+    if (input.options.fit.carve.side != Side::Inside) return true;
+    ClosestFilter filter;
+    filter.max_distance = 0.8 * box.diagonal();
+    return tree.closest(box.center(), filter) || tree.is_inside(box.center());
+  };
+  return refine_to_sizes(grid, sizes, is_needed, input.plan.budgets.background);
+}
+
+CompleteResult even_out(const RoundInput& input, const Grid& given, bool is_even) {
   const CompleteOptions& options = input.plan.complete;
   EvenOptions even = input.plan.even;
+  const Grid grid = keep_to_sizes(input, given);
   if (is_even) even.transition_cost = 0;
   CompleteResult evened =
       even_levels(grid, input.target.tree, options, even, input.context).completed;

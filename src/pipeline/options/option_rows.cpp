@@ -18,6 +18,8 @@
 namespace hexwright {
 namespace {
 
+constexpr const char* kNone = "none";
+
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
   throw Error(ErrorCode::BadArgument, fmt::format("'{}' is {}", text, what));
 }
@@ -137,6 +139,34 @@ NamedOption share_row(RowText text, double& value) {
   NamedOption row =
       make_row(std::move(text), OptionKind::Share, "above 0, below 100%", share_to_text(value));
   row.set = [&value](const std::string& given) { value = parse_share(given); };
+  return row;
+}
+
+NamedOption length_row(RowText text, Length& value) {
+  NamedOption row = make_row(std::move(text), OptionKind::Length, "above 0", kNone);
+  row.set = [&value](const std::string& given) { value = parse_length(given); };
+  return row;
+}
+
+NamedOption text_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read) {
+  NamedOption row = make_row(std::move(text), OptionKind::Text, std::move(form), kNone);
+  row.set = std::move(read);
+  return row;
+}
+
+NamedOption list_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read) {
+  NamedOption row = make_row(std::move(text), OptionKind::List, std::move(form), kNone);
+  row.set = [read = std::move(read)](const std::string& given) {
+    std::size_t begin = 0;
+    while (true) {
+      const std::size_t end = std::min(given.find('\n', begin), given.size());
+      read(given.substr(begin, end - begin));
+      if (end == given.size()) return;
+      begin = end + 1;
+    }
+  };
   return row;
 }
 

@@ -9,6 +9,7 @@
 #include "hexwright/base/function_ref.h"
 #include "hexwright/pipeline/option_names.h"
 #include "hexwright/pipeline/option_table.h"
+#include "hexwright/pipeline/size_wishes.h"
 
 namespace hexwright {
 
@@ -29,6 +30,14 @@ NamedOption number_row(RowText text, double& value, double least, double most);
 /// Shown and read in degrees, kept in radians.
 NamedOption degrees_row(RowText text, double& radians, double least, double most);
 NamedOption share_row(RowText text, double& value);
+/// A length, or a share of the diagonal; not given by default.
+NamedOption length_row(RowText text, Length& value);
+/// What only a reader of its own understands; `form` says how it is written.
+NamedOption text_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read);
+/// The same, repeated: lines of text.
+NamedOption list_row(RowText text, std::string form,
+                     std::function<void(const std::string& text)> read);
 
 /// A row without its setter.
 NamedOption choice_row(RowText text, const std::vector<std::string>& names,

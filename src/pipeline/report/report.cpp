@@ -28,6 +28,19 @@ std::string to_text(const Json& json) {
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
+Json describe_layer_specs(const LayersOptions& options) {
+  constexpr const char* kUnits[] = {"world", "diagonal", "edge"};
+  Json list = Json::array();
+  for (const LayerSpec& spec : options.specs)
+    list.push_back({{"pattern", spec.pattern},
+                    {"first", spec.first.value},
+                    {"total", spec.total()},
+                    {"unit", kUnits[static_cast<std::size_t>(spec.first.unit)]},
+                    {"growth", spec.growth},
+                    {"count", spec.count}});
+  return list;
+}
+
 /// The surface is described as it was asked for in the end: some wishes follow from others.
 Json describe_options(const MeshOptions& o) {
   const TargetOptions target = plan_target(o);
@@ -54,6 +67,8 @@ Json describe_options(const MeshOptions& o) {
           {"feature_angle_deg", degrees(target.features.crease_angle)},
           {"tangent_edges", o.cad.split_tangent},
           {"feature_edges_given", target.features.extra_segments.size()},
+          {"layers", describe_layer_specs(o.layers)},
+          {"layers_min_coverage", o.layers.min_coverage},
           {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
           {"max_hexes", o.max_hexes},
@@ -83,6 +98,14 @@ Json describe_sizing(const SizingResult& s) {
   for (std::size_t k = 0; k < s.splits_by_reason.size(); ++k)
     sizing["splits_by_reason"][kSplitReasons[k]] = s.splits_by_reason[k];
   return sizing;
+}
+
+Json describe_edges(const MeshResult& r) {
+  const EdgeLengths& e = r.edges;
+  Json edges = {{"edges", e.num_edges}, {"min", e.min}, {"median", e.median},
+                {"p95", e.high},        {"max", e.max}, {"tolerance_used", r.tolerance}};
+  if (r.size_asked > 0) edges["asked"] = r.size_asked;
+  return edges;
 }
 
 Json describe_complete(const CompleteReport& c) {
@@ -153,6 +176,30 @@ Json describe_exact(const ExactReport& e) {
           {"short", e.num_short},
           {"max_before", e.max_before},
           {"max_after", e.max_after}};
+}
+
+Json describe_layers(const LayersReport& report) {
+  constexpr const char* kReasons[kNumLayerLimits] = {"other", "gap", "size", "shape", "no_sheet"};
+  Json patches = Json::array();
+  for (const PatchLayers& row : report.patches) {
+    Json reduced = Json::object();
+    for (std::size_t k = 0; k < kNumLayerLimits; ++k)
+      if (row.reduced[k] > 0) reduced[kReasons[k]] = row.reduced[k];
+    patches.push_back({{"patch", row.patch},
+                       {"count", row.count},
+                       {"area", row.area},
+                       {"covered", row.covered},
+                       {"mean_thickness", row.mean_thickness},
+                       {"least_thickness", row.least_thickness},
+                       {"least_at", {row.least_at.x, row.least_at.y, row.least_at.z}},
+                       {"mean_first", row.mean_first},
+                       {"reduced", reduced},
+                       {"note", row.note}});
+  }
+  return {{"coverage", report.coverage()},
+          {"sheet_hexes", report.num_sheet_hexes},
+          {"patches", patches},
+          {"unmatched", report.unmatched}};
 }
 
 Json describe_folded(const std::vector<FoldedHex>& folded) {
@@ -241,8 +288,10 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"sizing", describe_sizing(result.sizing)},
                  {"complete", describe_complete(result.complete)},
                  {"cells_per_level", count_cells_per_level(result.grid)},
+                 {"edges", describe_edges(result)},
                  {"dual", describe_dual(result.dual)},
                  {"fit", describe_fit(result.fit)},
+                 {"layers", describe_layers(result.layers)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
   if (result.curving) report["curving"] = describe_curving(*result.curving);

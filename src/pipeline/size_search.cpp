@@ -1,0 +1,140 @@
+// Counts and lengths follow the size smoothly enough for a few steps to suffice.
+#include "pipeline/size_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "hexwright/pipeline/size_plan.h"
+
+#include "mesh/tri_measures.h"
+
+namespace hexwright {
+namespace {
+
+using Run = FunctionRef<MeshResult(const MeshOptions&, const Context&)>;
+
+/// How much longer than asked 95% of the edges may be.
+constexpr double kEdgeRoom = 1.05;
+/// Aim a little lower: edges do not follow the lattice exactly.
+constexpr double kEdgeMargin = 0.985;
+constexpr double kLeastStep = 0.6;
+constexpr int kMostEdgeRuns = 3;
+
+MeshOptions with_size(const MeshOptions& options, double share) {
+  MeshOptions sized = options;
+  sized.sizes.size = {share, true};
+  return sized;
+}
+
+/// The size as a share of the diagonal.
+double share_of_size(const MeshOptions& options, const Target& target) {
+  const Length& size = options.sizes.size;
+  return size.is_share ? size.value : target.frame.length_to_unit(size.value) / target.diagonal();
+}
+
+/// Fewer failures first.
+bool is_worse(const MeshResult& a, const MeshResult& b) {
+  return a.failures.size() > b.failures.size();
+}
+
+/// Warnings of runs that are not kept are of no interest.
+MeshResult run_quietly(Run run, const MeshOptions& options, const Context& context) {
+  std::vector<std::string> warnings;
+  Context quiet = context;
+  quiet.on_warning = [&warnings](std::string_view message) { warnings.emplace_back(message); };
+  MeshResult result = run(options, quiet);
+  result.warnings = std::move(warnings);
+  return result;
+}
+
+MeshResult say_warnings(MeshResult&& result, const Context& context) {
+  for (const std::string& warning : result.warnings) context.warn(warning);
+  return std::move(result);
+}
+
+MeshResult shorten_edges(const Target& target, const MeshOptions& options, Run run,
+                         const Context& context) {
+  const double share = share_of_size(options, target);
+  const double longest = target.frame.length_to_world(kEdgeRoom * share * target.diagonal());
+  MeshResult best = run_quietly(run, options, context);
+  double scale = 1;
+  for (int runs = 1; runs < kMostEdgeRuns && best.edges.high > longest; ++runs) {
+    scale *= std::max(kLeastStep, kEdgeMargin * longest / best.edges.high);
+    MeshResult next = run_quietly(run, with_size(options, scale * share), context);
+    if (is_worse(next, best) || next.mesh.num_hexes() == 0) break;
+    best = std::move(next);
+  }
+  if (best.edges.high > longest)
+    context.warn(fmt::format("95% of the edges are up to {:.3g} times as long as --size asks for",
+                             best.edges.high / longest * kEdgeRoom));
+  return say_warnings(std::move(best), context);
+}
+
+/// Within this share of the number asked for.
+constexpr double kCellRoom = 0.05;
+constexpr int kMostCellRuns = 8;
+
+/// Sizes and what they gave, from both sides of the number.
+class CellSearch {
+ public:
+  explicit CellSearch(double wanted) : wanted_(wanted) {}
+
+  void add(double size, double count) {
+    auto& side = count < wanted_ ? below_ : above_;
+    const std::pair<double, double> point = {std::log(size), std::log(count / wanted_)};
+    if (!side || std::abs(point.second) < std::abs(side->second)) side = point;
+    last_ = point;
+  }
+
+  /// By the line between the nearest counts on both sides; the cube of the size else.
+  double next() const {
+    if (!below_ || !above_) return std::exp(last_.first + last_.second / 3);
+    const double t = below_->second / (below_->second - above_->second);
+    return std::exp(below_->first + std::clamp(t, 0.1, 0.9) * (above_->first - below_->first));
+  }
+
+ private:
+  double wanted_;
+  std::optional<std::pair<double, double>> below_, above_;  ///< logarithms of size and ratio
+  std::pair<double, double> last_;
+};
+
+MeshResult find_cells(const Target& target, const MeshOptions& options, Run run,
+                      const Context& context) {
+  const auto wanted = static_cast<double>(options.sizes.cells);
+  const double volume = std::abs(enclosed_volume(target.surface()));
+  double share = std::cbrt(std::max(volume, 1e-9) / wanted) / target.diagonal();
+  CellSearch search(wanted);
+  std::optional<MeshResult> best;
+  const auto off = [&](const MeshResult& r) {
+    return std::abs(static_cast<double>(r.mesh.num_hexes()) / wanted - 1);
+  };
+  for (int runs = 0; runs < kMostCellRuns && (!best || off(*best) > kCellRoom); ++runs) {
+    MeshResult result =
+        run_quietly(run, resolve_tolerance(with_size(options, share), target.diagonal()), context);
+    search.add(share, std::max(1.0, static_cast<double>(result.mesh.num_hexes())));
+    if (!best || off(result) < off(*best)) best = std::move(result);
+    share = search.next();
+  }
+  if (off(*best) > kCellRoom)
+    context.warn(fmt::format("the nearest to --cells {} is a mesh of {} hexes", options.sizes.cells,
+                             best->mesh.num_hexes()));
+  return say_warnings(std::move(*best), context);
+}
+
+}  // namespace
+
+MeshResult search_sizes(const Target& target, const MeshOptions& options, Run run,
+                        const Context& context) {
+  if (options.sizes.cells > 0) return find_cells(target, options, run, context);
+  const bool is_inside = options.fit.carve.side == Side::Inside;
+  if (options.sizes.size.is_given() && is_inside)
+    return shorten_edges(target, options, run, context);
+  return run(options, context);
+}
+
+}  // namespace hexwright
