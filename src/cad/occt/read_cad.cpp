@@ -53,14 +53,18 @@ class SignalGuard {
 /// Crossings shallower than this, in the unit frame, are contacts or rounding.
 constexpr double kCrossingDepth = 1e-6;
 /// Triangles of one solid that cross, as beside tight bends, become this much finer ...
-constexpr double kFiner = 0.25;
+constexpr double kFiner = 0.5;
 constexpr int kMostRefinements = 2;  // ... at most so often
 
 bool crosses_itself(const CadModel& model) {
   const TriMesh unit = to_unit(model.surface, compute_unit_frame(model.surface));
+  const auto is_flat = [&](TriId t) {
+    const auto p = unit.corners(t);
+    return norm(cross(p[1] - p[0], p[2] - p[0])) <= kCrossingDepth * kCrossingDepth;
+  };
   const auto solid = [&](TriId t) { return model.faces[model.tri_to_face[t]].solid; };
   return !find_near_pairs(unit, 0, [&](TriId a, TriId b) {
-            return solid(a) == solid(b) &&
+            return solid(a) == solid(b) && !is_flat(a) && !is_flat(b) &&
                    find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth).has_value();
           }).empty();
 }
