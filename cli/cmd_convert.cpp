@@ -27,7 +27,7 @@ const std::vector<std::string> kGridOnlyExtensions = {".cells", ".htg"};
 /// mesh unless the other name or --grid says otherwise.
 void run(const ConvertCommand& cmd, Program& program) {
   check_outputs({cmd.output});
-  if (has_extension(cmd.input, kSurfaceExtensions)) {
+  if (has_extension(cmd.input, kSurfaceExtensions) || is_cad_file(cmd.input)) {
     require_extension(cmd.output, kSurfaceExtensions);
     const TriMesh surface = load_surface(cmd.input, program);
     write_surface(cmd.output, surface);

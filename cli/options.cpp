@@ -193,6 +193,7 @@ TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, P
 }
 
 TriMesh load_surface(const std::string& path, Program& program) {
+  if (is_cad_file(path)) return load_cad(path, {}, {}, program).surface.surface;
   SurfaceFile file = read_surface(path);
   for (const std::string& w : file.warnings) program.console.warn(path + ": " + w);
   return std::move(file.mesh);

@@ -62,7 +62,7 @@ bool has_extension(const std::string& path, const std::vector<std::string>& exte
 /// Extensions of grid files.
 const std::vector<std::string>& grid_extensions();
 
-/// Reads a surface and prints the reader's warnings.
+/// Reads a surface, or the triangles and patches of a CAD file; prints the reader's warnings.
 TriMesh load_surface(const std::string& path, Program& program);
 
 /// Names the file in errors about its content that stages after reading it raise.

@@ -77,6 +77,9 @@ bool is_cad_file(const std::filesystem::path& path) {
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* known : {".step", ".stp", ".p21", ".iges", ".igs", ".brep"})
     if (extension == known) return true;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return false;  // what comes once is not opened
   std::string head(64, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -9,6 +9,7 @@
 #include "hexwright/geometry/surface_names.h"
 
 #include "geometry/prepare/bodies.h"
+#include "geometry/tree/point_tree.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "mesh/tri_measures.h"
 
@@ -21,6 +22,9 @@ constexpr double kCoarsest = 0.02;
 /// Bodies nearer than so many tolerances are meshed apart: one grid would need cells of half the
 /// gap to tell them apart, finer than the tolerance asks for.
 constexpr double kGapOfTolerance = 2;
+
+/// Ends of feature edges and vertices this near to each other, a share of the diagonal, are one.
+constexpr double kSamePoint = 1e-5;
 
 /// For each body the bodies before it that come within the gap.
 std::vector<std::vector<std::size_t>> find_neighbours(const std::vector<ClosedPiece>& bodies,
@@ -234,6 +238,20 @@ void fix_lengths(SizeWishes& sizes, double diagonal) {
   }
 }
 
+/// Feature edges of other parts are none of this one's.
+void keep_own_segments(const TriMesh& surface, std::vector<std::array<Vec3, 2>>& segments) {
+  if (segments.empty()) return;
+  const double reach = kSamePoint * bounding_box(surface).diagonal();
+  const PointTree points(surface.positions.raw());
+  const auto is_vert = [&](const Vec3& p) {
+    bool any = false;
+    const Vec3 around{reach, reach, reach};
+    points.visit_box({p - around, p + around}, [&](std::size_t) { any = true; });
+    return any;
+  };
+  std::erase_if(segments, [&](const auto& s) { return !is_vert(s[0]) || !is_vert(s[1]); });
+}
+
 }  // namespace
 
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
@@ -271,6 +289,7 @@ MeshOptions plan_part(const MeshOptions& options, const Target& whole, const Tri
   part.corner_tolerance /= ratio;
   part.target.prepare.min_part = 0;  // what is left is meant to be there
   part.target.features.min_length = whole.frame.length_to_world(whole.feature_options.min_length);
+  keep_own_segments(surface, part.target.features.extra_segments);
   return part;
 }
 

@@ -163,15 +163,18 @@ Sample two_solids() {
   return {{{base, "base"}, {pin, "pin"}, {apart, "rail"}}, {}, {}};
 }
 
-/// Pi/2 of a thick cylinder, radii 10 and 20: the symmetry planes have names.
+/// A quarter of a thick cylinder, radii 1 and 2: the body of Lame's solution.
 Sample thick_cylinder() {
   const TopoDS_Shape tube =
-      BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(20, 5, M_PI / 2).Shape(), hole(0, 0, 10, 5)).Shape();
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 0.5, M_PI / 2).Shape(), hole(0, 0, 1, 0.5))
+          .Shape();
   return {{{tube, "tube"}},
-          {{plane_face(tube, 0, 0), "x0"},
-           {plane_face(tube, 1, 0), "y0"},
-           {cylinder_face(tube, 10), "inside"},
-           {cylinder_face(tube, 20), "outside"}},
+          {{plane_face(tube, 0, 0), "xmin"},
+           {plane_face(tube, 1, 0), "ymin"},
+           {plane_face(tube, 2, 0), "bottom"},
+           {plane_face(tube, 2, 0.5), "top"},
+           {cylinder_face(tube, 1), "inner"},
+           {cylinder_face(tube, 2), "outer"}},
           {}};
 }
 

@@ -75,6 +75,18 @@ TEST(MeshCad, GivesEachSeparateBodyItsRegion) {
   }
 }
 
+/// Each is meshed by itself, with the features that are its own.
+TEST(MeshCad, SolidsKeptApartAreRegionsOfTheirOwn) {
+  NEEDS_CAD();
+  MeshOptions options;
+  options.target.prepare.parts = Parts::Separate;
+  const MeshResult result = mesh_cad(load("two_solids.step", options), options, {});
+  EXPECT_EQ(std::set<std::string>(result.mesh.region_names.begin(), result.mesh.region_names.end()),
+            (std::set<std::string>{"base", "pin", "rail"}));
+  for (const std::string& warning : result.warnings)
+    EXPECT_EQ(warning.find("feature edges"), std::string::npos) << warning;
+}
+
 TEST(MeshCad, RulesPickFaces) {
   NEEDS_CAD();
   MeshOptions options;

@@ -451,6 +451,14 @@ class Cad(CliTest):
         faces = json.loads(self.run_binary("inspect", self.PLATE, "--json").stdout)["cad"]["faces"]
         self.assertEqual(len(faces), 7)
 
+    def test_other_commands_take_its_triangles_and_names(self):
+        if not self.reads_cad():
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        self.run_binary("convert", self.PLATE, self.path / "a.stl")
+        text = (self.path / "a.stl").read_text()
+        for name in ("solid bore", "solid fixed", "solid face_2"):
+            self.assertIn(name, text)
+
     def test_bad_files_leave_nothing_and_say_why(self):
         if not self.reads_cad():
             self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")

@@ -18,7 +18,7 @@
 namespace hexwright::cad {
 namespace {
 
-constexpr int kMostSteps = 30;
+constexpr int kMostSteps = 30, kMostHalvings = 8;
 /// Of the parameters' range: steps below are rounding.
 constexpr double kSmallStep = 1e-13;
 
@@ -116,50 +116,57 @@ std::optional<std::array<double, 2>> ExactFace::parameters(const Vec3& p) const 
   return std::array{u, v};
 }
 
-/// The Hessian of half the squared distance where it is positive, else its first part. Parameters
-/// stay within the surface's; a step that does not come nearer is halved.
+/// Newton's step for half the squared distance to p; with its second derivatives where they make it
+/// convex. Absent at poles.
+std::optional<std::array<double, 2>> ExactFace::step_towards(const Vec3& p, double u,
+                                                             double v) const {
+  gp_Pnt point;
+  gp_Vec du, dv, duu, dvv, duv;
+  surface_.D2(u, v, point, du, dv, duu, dvv, duv);
+  const Vec3 r = to_vec3(point) - p, a = to_vec3(du), b = to_vec3(dv);
+  const double gu = dot(r, a), gv = dot(r, b);
+  double huu = dot(a, a), huv = dot(a, b), hvv = dot(b, b);
+  const double full_uu = huu + dot(r, to_vec3(duu)), full_uv = huv + dot(r, to_vec3(duv));
+  const double full_vv = hvv + dot(r, to_vec3(dvv));
+  if (full_uu > 0 && full_uu * full_vv - full_uv * full_uv > 1e-6 * huu * hvv) {
+    huu = full_uu;
+    huv = full_uv;
+    hvv = full_vv;
+  }
+  const double d = huu * hvv - huv * huv;
+  if (!(d > 0)) return {};
+  return std::array{-(hvv * gu - huv * gv) / d, -(huu * gv - huv * gu) / d};
+}
+
+/// Parameters stay within the surface's; a step that does not come nearer is halved.
 std::optional<std::array<double, 2>> ExactFace::search(const Vec3& p) const {
   const SurfaceSample* start = nearest(samples_, p);
   if (!start) return {};
-  double u = start->u, v = start->v, best = norm_sq(start->point - p);
   const double u0 = surface_.FirstUParameter(), u1 = surface_.LastUParameter();
   const double v0 = surface_.FirstVParameter(), v1 = surface_.LastVParameter();
   const auto into_u = [&](double x) { return surface_.IsUPeriodic() ? x : std::clamp(x, u0, u1); };
   const auto into_v = [&](double x) { return surface_.IsVPeriodic() ? x : std::clamp(x, v0, v1); };
+  std::array at{start->u, start->v};
+  double least = norm_sq(to_vec3(surface_.Value(at[0], at[1])) - p);
   for (int step = 0; step < kMostSteps; ++step) {
-    gp_Pnt point;
-    gp_Vec du, dv, duu, dvv, duv;
-    surface_.D2(u, v, point, du, dv, duu, dvv, duv);
-    const Vec3 r = to_vec3(point) - p, a = to_vec3(du), b = to_vec3(dv);
-    best = std::min(best, norm_sq(r));
-    const double gu = dot(r, a), gv = dot(r, b);
-    double huu = dot(a, a), huv = dot(a, b), hvv = dot(b, b);
-    const double full_uu = huu + dot(r, to_vec3(duu)), full_uv = huv + dot(r, to_vec3(duv));
-    const double full_vv = hvv + dot(r, to_vec3(dvv));
-    if (full_uu > 0 && full_uu * full_vv - full_uv * full_uv > 1e-6 * huu * hvv) {
-      huu = full_uu;
-      huv = full_uv;
-      hvv = full_vv;
-    }
-    const double d = huu * hvv - huv * huv;
-    if (!(d > 0)) return std::array{u, v};  // a pole
-    double su = -(hvv * gu - huv * gv) / d, sv = -(huu * gv - huv * gu) / d;
+    const auto way = step_towards(p, at[0], at[1]);
+    if (!way) return at;
     bool is_nearer = false;
-    for (int halving = 0; halving < 8 && !is_nearer; ++halving, su *= 0.5, sv *= 0.5) {
-      const double nu = into_u(u + su), nv = into_v(v + sv);
-      const bool is_tiny =
-          std::abs(nu - u) <= kSmallStep * (u1 - u0) && std::abs(nv - v) <= kSmallStep * (v1 - v0);
-      if (is_tiny) return std::array{u, v};
-      const double now = norm_sq(to_vec3(surface_.Value(nu, nv)) - p);
-      if (now >= best) continue;
+    double share = 1;
+    for (int halving = 0; halving < kMostHalvings && !is_nearer; ++halving, share *= 0.5) {
+      const std::array there{into_u(at[0] + share * (*way)[0]), into_v(at[1] + share * (*way)[1])};
+      if (std::abs(there[0] - at[0]) <= kSmallStep * (u1 - u0) &&
+          std::abs(there[1] - at[1]) <= kSmallStep * (v1 - v0))
+        return at;
+      const double now = norm_sq(to_vec3(surface_.Value(there[0], there[1])) - p);
+      if (now >= least) continue;
       is_nearer = true;
-      u = nu;
-      v = nv;
-      best = now;
+      at = there;
+      least = now;
     }
-    if (!is_nearer) return std::array{u, v};
+    if (!is_nearer) return at;
   }
-  return std::array{u, v};
+  return at;
 }
 
 ExactEdge::ExactEdge(const TopoDS_Edge& edge, std::vector<CurveSample> samples)

@@ -38,6 +38,7 @@ class ExactFace {
  private:
   std::optional<std::array<double, 2>> parameters(const Vec3& p) const;
   std::optional<std::array<double, 2>> search(const Vec3& p) const;
+  std::optional<std::array<double, 2>> step_towards(const Vec3& p, double u, double v) const;
 
   BRepAdaptor_Surface surface_;
   bool is_reversed_;
