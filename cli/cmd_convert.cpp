@@ -15,7 +15,8 @@ namespace {
 
 struct ConvertCommand {
   std::string input, output;
-  std::string format;
+  ElementChoice elements;
+  int order = 0;  ///< 0: that of the input
   bool as_grid = false, with_sets = false;
 };
 
@@ -38,10 +39,13 @@ void run(const ConvertCommand& cmd, Program& program) {
     write_grid(cmd.output, grid);
     program.console.print(fmt::format("{}: {} cells", cmd.output, grid.num_cells()));
   } else {
-    require_mesh_format(cmd.output, cmd.format);
-    const HexMesh mesh = read_hex_mesh(cmd.input);
+    HexMesh mesh = read_hex_mesh(cmd.input);
+    if (cmd.order == 1) mesh.mid_nodes.reset();
+    if (cmd.order == 2 && !mesh.mid_nodes) mesh.mid_nodes = make_straight_mid_nodes(mesh);
+    require_mesh_format(cmd.output, cmd.elements, mesh.mid_nodes ? 2 : 1);
     WriteHexOptions options;
-    options.format = cmd.format;
+    options.format = cmd.elements.format;
+    options.nodes_per_hex = cmd.elements.nodes_per_hex;
     options.write_sets = cmd.with_sets;
     write_mesh(cmd.output, mesh, program.console, options);
     program.console.print(fmt::format("{}: {} hexes", cmd.output, mesh.num_hexes()));
@@ -58,7 +62,12 @@ void add_convert_command(CLI::App& app, Program& program) {
   sub->add_flag("--grid", cmd->as_grid, "The .vtu or .mesh file holds a grid with hanging nodes");
   sub->add_flag("--sets", cmd->with_sets,
                 "VTU and VTK: quads, edges and corners also as cells behind the hexes");
-  add_format_option(*sub, cmd->format);
+  add_element_options(*sub, cmd->elements);
+  sub->add_option(
+         "--order", cmd->order,
+         "Of the elements of a mesh: 1 leaves mid-nodes out, 2 puts those that are missing "
+         "in the middle of straight edges [that of the input]")
+      ->check(CLI::IsMember({1, 2}));
   add_console_options(*sub, program);
   sub->footer(
       "Examples:\n  hexwright convert a.mesh b.inp\n  hexwright convert a.vtu b.mesh --format "

@@ -18,13 +18,14 @@ namespace {
 struct FitCommand {
   std::string hexes, surface, features, output, report, picture;
   FitStageOptions options;
+  ElementChoice elements;
   std::vector<std::string> patches;
 };
 
 /// The result is judged as `check` would judge it, and decides the exit code.
 void run(const FitCommand& cmd, Program& program) {
   check_outputs({cmd.output, cmd.report, cmd.picture}, {cmd.hexes, cmd.surface, cmd.features});
-  require_mesh_format(cmd.output);
+  require_mesh_format(cmd.output, cmd.elements, cmd.options.order);
   require_extension(cmd.picture, {".png"});
   const Context context = program.console.start(cmd.surface);
   const HexMesh background = read_hex_mesh(cmd.hexes);
@@ -35,12 +36,14 @@ void run(const FitCommand& cmd, Program& program) {
     return make_target(name_patches(TriMesh(surface), cmd.patches, program), wishes.target,
                        context);
   });
-  const FitResult result = naming_file(cmd.hexes, [&] {
-    FitResult fitted = fit(to_unit(background, target.frame), target, wishes.fit, context);
-    fitted.to_world(target.frame);
-    return fitted;
+  const FitStageResult fitted = naming_file(cmd.hexes, [&] {
+    FitStageResult stage =
+        run_fit_stage(to_unit(background, target.frame), target, wishes, context);
+    stage.to_world(target.frame);
+    return stage;
   });
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(result.report));
+  const FitResult& result = fitted.fit;
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, fit_to_json(fitted));
   if (result.mesh.num_hexes() == 0) {
     program.console.fail(cmd.hexes +
                          ": no hex lies inside the surface; the mesh and the surface "
@@ -48,7 +51,7 @@ void run(const FitCommand& cmd, Program& program) {
     program.exit_code = FailsGate;
     return;
   }
-  write_mesh_with_quality(cmd.output, result.mesh, program.console);
+  write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.elements);
   write_cut_picture(cmd.picture, result.mesh);
   JudgeOptions judged;
   if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
@@ -57,6 +60,7 @@ void run(const FitCommand& cmd, Program& program) {
   program.console.print(fmt::format("{}: {} hexes of {}", cmd.output, result.mesh.num_hexes(),
                                     background.num_hexes()));
   program.console.print_block(figures_to_text(verdict));
+  if (fitted.curving) program.console.print_block(curving_to_text(*fitted.curving));
   for (const std::string& w : verdict.warnings) program.console.warn(cmd.output + ": " + w);
   for (const std::string& f : verdict.failures) program.console.fail(cmd.output + ": " + f);
   program.exit_code = verdict.is_valid() ? Valid : FailsGate;
@@ -73,6 +77,7 @@ void add_fit_command(CLI::App& app, Program& program) {
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
+  add_element_options(*sub, cmd->elements);
   sub->add_option("--report", cmd->report, "Write what became of the features as JSON");
   add_picture_option(*sub, cmd->picture);
   add_console_options(*sub, program);

@@ -1,12 +1,14 @@
 // hexwright mesh: the whole pipeline.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -20,7 +22,8 @@ namespace {
 
 /// What the command line says; empty names = not asked for.
 struct MeshCommand {
-  std::string input, output, format, report, picture, view, grid, features;
+  std::string input, output, report, picture, view, grid, features;
+  ElementChoice elements;
   std::vector<std::string> patches;
   bool is_strict = false;
   MeshOptions options;
@@ -32,11 +35,22 @@ void print_summary(const MeshCommand& cmd, const MeshResult& result, Console& co
                             result.num_rounds, result.num_rounds == 1 ? "" : "s"));
   for (const std::string& note : result.surface.notes) console.print("  surface: " + note);
   console.print_block(figures_to_text(result.verdict));
+  if (result.curving) console.print_block(curving_to_text(*result.curving));
+  if (result.exact)
+    console.print(fmt::format("  {} of {} boundary vertices on the exact shape",
+                              result.exact->num_exact, result.exact->num_verts));
+  console.print_block(layers_to_text(result.layers));
   if (cmd.options.sizes.any())
     console.print(fmt::format("  edges: median {:.4g}, 95% up to {:.4g}, longest {:.4g}",
                               result.edges.median, result.edges.high, result.edges.max));
   for (const StageRecord& stage : result.stages)
     console.print(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
+}
+
+/// The wall layer of each hex, when layers were asked for.
+std::vector<HexField> layer_field(const MeshResult& result) {
+  if (result.layer.empty()) return {};
+  return {{"layer", {result.layer.begin(), result.layer.end()}}};
 }
 
 /// A mesh that fails the gate is written all the same, with its failures on stderr and exit code 1:
@@ -47,24 +61,32 @@ void run(const MeshCommand& cmd, Program& program) {
   require_extension(cmd.picture, {".png"});
   require_extension(cmd.view, {".html"});
   require_extension(cmd.grid, grid_extensions());
-  require_mesh_format(cmd.output, cmd.format);
+  require_mesh_format(cmd.output, cmd.elements, cmd.options.order);
   const Context context = program.console.start(cmd.input);
-  const TriMesh as_read = load_surface(cmd.input, program);
   MeshOptions options = cmd.options;
-  // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
-  load_features(cmd.features, as_read, options.target.features);
-  const TriMesh surface = name_patches(TriMesh(as_read), cmd.patches, program);
-  MeshResult result =
-      naming_file(cmd.input, [&] { return mesh_surface(surface, options, context); });
+  std::optional<CadInput> cad;
+  TriMesh surface;
+  if (is_cad_file(cmd.input)) {
+    cad = load_cad(cmd.input, cmd.patches, options, program);
+    surface = cad->surface.surface;
+    load_features(cmd.features, surface, options.target.features);
+  } else {
+    surface = load_surface(cmd.input, program);
+    load_features(cmd.features, surface, options.target.features);
+    surface = name_patches(std::move(surface), cmd.patches, program);
+  }
+  MeshResult result = naming_file(cmd.input, [&] {
+    return cad ? mesh_cad(*cad, options, context) : mesh_surface(surface, options, context);
+  });
   program.console.clear_progress();
   if (cmd.is_strict)
     result.failures.insert(result.failures.end(), result.warnings.begin(), result.warnings.end());
 
-  RunInfo info{cmd.input, cmd.output, num_threads(), {}};
+  RunInfo info{cmd.input, cmd.output, num_threads()};
+  if (cad) info.cad = summarize_cad(cad->model, cad->surface);
   if (result.mesh.num_hexes() > 0) {
-    info.changed_names =
-        write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.format);
+    info.changed_names = write_mesh_with_quality(cmd.output, result.mesh, program.console,
+                                                 cmd.elements, layer_field(result));
     write_cut_picture(cmd.picture, result.mesh);
     if (!cmd.view.empty())
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
@@ -81,13 +103,14 @@ void run(const MeshCommand& cmd, Program& program) {
 void add_mesh_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<MeshCommand>();
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
-  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY; or CAD: STEP, IGES or BREP")
+      ->required();
   add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   sub->add_flag("--strict", cmd->is_strict, "Whatever is warned of fails the gate (exit code 1)");
   add_feature_file_option(*sub, cmd->features);
   add_patch_option(*sub, cmd->patches);
-  add_format_option(*sub, cmd->format);
+  add_element_options(*sub, cmd->elements);
   sub->add_option("--report", cmd->report, "Write a report as JSON");
   add_picture_option(*sub, cmd->picture);
   sub->add_option("--view", cmd->view, "Write a page to look into the mesh with (.html)");
@@ -100,6 +123,7 @@ void add_mesh_command(CLI::App& app, Program& program) {
       "  hexwright mesh part.stl -o part.vtu\n"
       "  hexwright mesh part.stl -o part.vtu --tolerance 0.2% --report part.json --picture "
       "part.png\n"
+      "  hexwright mesh part.stl -o part.inp --order 2\n"
       "  hexwright mesh part.obj -o part.inp --sizing thickness --max-level 6");
   sub->callback([cmd, &program] { run(*cmd, program); });
 }

@@ -49,6 +49,15 @@ void print_summary(const PolycubeCommand& cmd, const PolycubeResult& result, con
                   "hexes inverted before the optimisation",
                   r.num_tets, r.num_nonpositive_object, r.num_nonpositive_polycube,
                   r.num_nonpositive_left, r.num_bridged, r.num_inverted_mapped));
+  if (r.num_off_edges > 0)
+    console.print(fmt::format(
+        "  {} vertices were let off the polycube's edges so that no hex inverts", r.num_off_edges));
+  if (r.num_off_surface > 0)
+    console.print(fmt::format(
+        "  {} boundary vertices stay off the surface, the farthest by {:.3f} % of the diagonal at "
+        "({:.4g}, {:.4g}, {:.4g})",
+        r.num_off_surface, 100 * r.max_off_surface, r.farthest_off.x, r.farthest_off.y,
+        r.farthest_off.z));
   for (const FoldedHex& f : r.folded)
     console.print(fmt::format(
         "  inverted: hex {} at ({:.4g}, {:.4g}, {:.4g}), scaled Jacobian {:.2f}, in tet {} of the "
@@ -116,8 +125,11 @@ void add_size_options(CLI::App& sub, PolycubeCommand& cmd) {
 void add_polycube_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<PolycubeCommand>();
   CLI::App* sub = app.add_subcommand("polycube", "Hex mesh of an object from its polycube map");
-  sub->add_option("object", cmd->object, "Tet mesh of the object: .mesh, .vtk or .vtu")->required();
-  sub->add_option("polycube", cmd->polycube, "The same tets, deformed to a polycube")->required();
+  sub->add_option("object", cmd->object,
+                  "Tet or hex mesh of the object: .mesh, .vtk, .vtu, .msh or .inp")
+      ->required();
+  sub->add_option("polycube", cmd->polycube, "The same elements, deformed to a polycube")
+      ->required();
   add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   add_size_options(*sub, *cmd);

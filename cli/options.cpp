@@ -122,17 +122,23 @@ void add_picture_option(CLI::App& cmd, std::string& picture) {
   cmd.add_option("--picture", picture, "Write a cut through the mesh as PNG");
 }
 
-void require_mesh_format(const std::string& path, const std::string& format) {
+void require_mesh_format(const std::string& path, const ElementChoice& choice, int order) {
+  if (order == 1 && choice.nodes_per_hex > 8)
+    throw CLI::ValidationError("--nodes", "hexes of " + std::to_string(choice.nodes_per_hex) +
+                                              " nodes are of second order; add --order 2");
   try {
-    check_hex_mesh_format(path, format);
+    check_hex_mesh_format(path, choice.format, order, choice.nodes_per_hex);
   } catch (const Error& error) {
     throw CLI::ValidationError(error.what());
   }
 }
 
-void add_format_option(CLI::App& cmd, std::string& format) {
-  cmd.add_option("--format", format, "Format of the mesh, where the extension does not tell")
+void add_element_options(CLI::App& cmd, ElementChoice& choice) {
+  cmd.add_option("--format", choice.format, "Format of the mesh, where the extension does not tell")
       ->check(CLI::IsMember(hex_mesh_formats()));
+  cmd.add_option("--nodes", choice.nodes_per_hex,
+                 "Of second order, nodes of a hex: 20 or 27 [what is usual in the format]")
+      ->check(CLI::IsMember({20, 27}));
 }
 
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
@@ -151,18 +157,38 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules) {
       });
 }
 
-TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
-  if (rules.empty()) return std::move(surface);
-  std::vector<PatchRule> parsed;
-  for (const std::string& rule : rules) {
-    parsed.push_back(parse_patch_rule(rule));
-    for (PatchCondition& condition : parsed.back().conditions)
+namespace {
+
+std::vector<PatchRule> read_rules(const std::vector<std::string>& texts, Program& program) {
+  std::vector<PatchRule> rules;
+  for (const std::string& text : texts) {
+    rules.push_back(parse_patch_rule(text));
+    for (PatchCondition& condition : rules.back().conditions)
       if (!condition.path.empty()) condition.surface = load_surface(condition.path, program);
   }
-  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  return rules;
+}
+
+void warn_unmatched(const std::vector<std::string>& rules, const std::vector<std::size_t>& matched,
+                    Program& program) {
   for (std::size_t r = 0; r < rules.size(); ++r)
-    if (ruled.num_matched[r] == 0)
+    if (matched[r] == 0)
       program.console.warn("--patch " + rules[r] + ": no part of the surface fits the rule");
+}
+
+}  // namespace
+
+TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program) {
+  if (rules.empty()) return std::move(surface);
+  const std::vector<PatchRule> parsed = read_rules(rules, program);
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    for (const PatchCondition& condition : parsed[r].conditions)
+      if (condition.kind == PatchCondition::Kind::CadFace)
+        throw Error(
+            ErrorCode::BadArgument,
+            "--patch " + rules[r] + " asks for a face of a CAD file, which the input is not");
+  RuledSurface ruled = apply_patch_rules(surface, parsed);
+  warn_unmatched(rules, ruled.num_matched, program);
   return std::move(ruled.surface);
 }
 
@@ -170,6 +196,15 @@ TriMesh load_surface(const std::string& path, Program& program) {
   SurfaceFile file = read_surface(path);
   for (const std::string& w : file.warnings) program.console.warn(path + ": " + w);
   return std::move(file.mesh);
+}
+
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program) {
+  CadModel model = read_cad(path, read_options_for(options));
+  for (const std::string& w : model.warnings) program.console.warn(path + ": " + w);
+  CadInput input = prepare_cad(std::move(model), read_rules(rules, program), options);
+  warn_unmatched(rules, input.num_matched, program);
+  return input;
 }
 
 }  // namespace hexwright::cli

@@ -7,9 +7,11 @@
 
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/option_table.h"
 
 #include "commands.h"
+#include "output.h"
 
 namespace hexwright::cli {
 
@@ -39,10 +41,10 @@ void add_picture_option(CLI::App& cmd, std::string& picture);
 void require_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// The same for hex meshes: the format by its name, or by the extension when the name is empty.
-void require_mesh_format(const std::string& path, const std::string& format = {});
+void require_mesh_format(const std::string& path, const ElementChoice& choice = {}, int order = 1);
 
-/// --format, of hex meshes.
-void add_format_option(CLI::App& cmd, std::string& format);
+/// --format and --nodes, of hex meshes.
+void add_element_options(CLI::App& cmd, ElementChoice& choice);
 
 /// --patch, rules that name parts of the surface.
 void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
@@ -50,6 +52,10 @@ void add_patch_option(CLI::App& cmd, std::vector<std::string>& rules);
 /// Names parts of a surface as it was read by the rules of --patch; warns of rules that nothing
 /// meets.
 TriMesh name_patches(TriMesh&& surface, const std::vector<std::string>& rules, Program& program);
+
+/// Reads a CAD file for a mesh with these options, and names its patches. Prints the warnings.
+CadInput load_cad(const std::string& path, const std::vector<std::string>& rules,
+                  const MeshOptions& options, Program& program);
 
 bool has_extension(const std::string& path, const std::vector<std::string>& extensions);
 

@@ -1,6 +1,7 @@
 // Writing results.
 #include "output.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -68,10 +69,13 @@ void check_outputs(std::initializer_list<std::string> outputs,
 }
 
 std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
-                                                 Console& console, const std::string& format) {
+                                                 Console& console, const ElementChoice& choice,
+                                                 const std::vector<HexField>& fields) {
   WriteHexOptions options;
+  options.fields = fields;
   options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
-  options.format = format;
+  options.format = choice.format;
+  options.nodes_per_hex = choice.nodes_per_hex;
   options.names_by_place = true;
   return write_mesh(path, mesh, console, options);
 }
@@ -79,9 +83,15 @@ std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const 
 std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh, Console& console,
                                     const WriteHexOptions& options) {
   WriteHexResult result = write_hex_mesh(path, mesh, options);
-  for (const ChangedName& name : result.changed_names)
+  constexpr std::size_t kMostTold = 5;
+  for (std::size_t k = 0; k < std::min(kMostTold, result.changed_names.size()); ++k) {
+    const ChangedName& name = result.changed_names[k];
     console.warn(path + ": the set '" + name.given + "' is called '" + name.written +
                  "', because the format does not allow its name");
+  }
+  if (result.changed_names.size() > kMostTold)
+    console.warn(path + ": " + std::to_string(result.changed_names.size() - kMostTold) +
+                 " more sets have other names; --report lists them");
   return std::move(result.changed_names);
 }
 

@@ -18,11 +18,18 @@ namespace hexwright::cli {
 void check_outputs(std::initializer_list<std::string> outputs,
                    std::initializer_list<std::string> inputs = {});
 
-/// Writes a hex mesh with the scaled Jacobian of each hex as a field, in the format of that name
-/// or, when it is empty, by the extension. Warns of names that the format could not take, and
-/// returns them.
+/// Which elements a hex mesh is written with: WriteHexOptions::format and nodes_per_hex.
+struct ElementChoice {
+  std::string format;
+  int nodes_per_hex = 0;
+};
+
+/// Writes a hex mesh with the scaled Jacobian of each hex as a field and with further `fields`, in
+/// the format of that name or, when it is empty, by the extension. Warns of names that the format
+/// could not take, and returns them.
 std::vector<ChangedName> write_mesh_with_quality(const std::string& path, const HexMesh& mesh,
-                                                 Console& console, const std::string& format = {});
+                                                 Console& console, const ElementChoice& choice = {},
+                                                 const std::vector<HexField>& fields = {});
 
 /// The same without the field.
 std::vector<ChangedName> write_mesh(const std::string& path, const HexMesh& mesh, Console& console,

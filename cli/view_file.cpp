@@ -7,28 +7,11 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include "hexwright/base/parallel.h"
-#include "hexwright/grid/locate.h"
 #include "hexwright/io/atomic_file.h"
 
 extern char** environ;
 
 namespace hexwright::cli {
-namespace {
-
-/// The level of the grid's cell that each hex's centre lies in; 0 outside of the grid.
-HexField find_levels(const MeshResult& result) {
-  HexField levels{"level", std::vector<double>(result.mesh.num_hexes(), 0)};
-  parallel_for(result.mesh.num_hexes(), [&](std::size_t i) {
-    Vec3 center;
-    for (const Vec3& p : result.mesh.corners(HexId(i))) center += p / 8;
-    const CellId cell = find_leaf_at(result.grid, result.pose.apply(center));
-    if (cell.is_valid()) levels.values[i] = result.grid.cells[cell].level;
-  });
-  return levels;
-}
-
-}  // namespace
 
 void write_view(const std::string& path, const HexMesh& mesh, const ViewOptions& options) {
   write_file_atomically(path, make_view_page(mesh, options));
@@ -41,7 +24,9 @@ void write_view(const std::string& path, const MeshResult& result, const TriMesh
   options.title = title;
   options.verdict = &result.verdict;
   options.surface = &tree;
-  options.fields.push_back(find_levels(result));
+  options.fields.push_back({"level", {result.levels.begin(), result.levels.end()}});
+  if (!result.layer.empty())
+    options.fields.push_back({"layer", {result.layer.begin(), result.layer.end()}});
   write_view(path, result.mesh, options);
 }
 

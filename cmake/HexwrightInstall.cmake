@@ -1,5 +1,6 @@
 # Installs the library, its headers and a CMake package: find_package(hexwright) gives hexwright::hexwright, and
-# find_package(hexwright COMPONENTS ilp) also the integer-program oracle hexwright::ilp where it was built.
+# find_package(hexwright COMPONENTS ilp cad) also the integer-program oracle hexwright::ilp and the reader of CAD files
+# hexwright::cad where they were built.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,6 +16,12 @@ if(TARGET hexwright_ilp)
   install(FILES cmake/FindHiGHS.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
   # Where the solver was found, as a hint for projects that use the package on this machine.
   get_filename_component(hexwright_highs_dir "${HiGHS_INCLUDE_DIR}" DIRECTORY)
+endif()
+if(HEXWRIGHT_CAD)
+  # Of its own for the same reason: the core package must load where OpenCASCADE is missing.
+  install(TARGETS hexwright_cad EXPORT hexwright-cad-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT hexwright-cad-targets NAMESPACE hexwright::
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
 endif()
 install(DIRECTORY include/hexwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hexwright-targets NAMESPACE hexwright::

@@ -8,7 +8,7 @@ from ._core import version as __version__
 from ._errors import BadGeometry, BadInput, Cancelled, HexwrightError, HexwrightWarning, OutOfResources
 from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface
-from ._mesh import Facets, HexMesh, InvalidMesh, read
+from ._mesh import Facets, HexMesh, InvalidMesh, SecondOrder, read
 from ._options import Option, options
 from ._stages import check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
 from ._verdict import Verdict
@@ -25,6 +25,7 @@ __all__ = [
     "InvalidMesh",
     "Option",
     "OutOfResources",
+    "SecondOrder",
     "Surface",
     "TetMesh",
     "Verdict",

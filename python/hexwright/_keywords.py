@@ -63,8 +63,16 @@ class MeshOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    order: int
+    """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
+    layers: str | list[str]
+    """Wall layers on the patches of this name (glob or regular expression, * for all): any three of first, growth, count and total; lengths in the surface's unit, as 1% of the diagonal or as 0.05h of the wall's edges; repeatable. Default: none."""
+    layers_min_coverage: float | str
+    """Least share of the walls' area with all layers at half of their height or more; less fails the gate. Default: 0%."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
+    tangent_edges: bool
+    """CAD files: edges where faces meet smoothly are features too, and every face is a patch of its own. Default: false."""
 
 
 class GridOptions(TypedDict, total=False):
@@ -115,6 +123,8 @@ class FitOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    order: int
+    """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
 
@@ -132,7 +142,9 @@ class PolycubeOptions(TypedDict, total=False):
     """Options of ``hexwright polycube``."""
 
     max_stretch: float | str
-    """A cell is split while two object points in it are farther apart than this share of the diagonal. Default: 2%."""
+    """A cell is split while it is longer on the object than this share of the diagonal: along its edges, or between two of the object's vertices in it. Default: 2%."""
+    cells: int
+    """Hexes wanted, about: the stretch follows from it, and the surface ends up where that leads; 0 = off. Default: 0."""
     max_surface_error: float | str
     """Cells are split where the mesh would miss the surface by more than this share of the diagonal, and again where it does. Default: 0.3%."""
     ignore_distance: bool
@@ -142,7 +154,7 @@ class PolycubeOptions(TypedDict, total=False):
     pad: bool
     """Put a layer of hexes under the boundary: for polycube edges where the object is smooth. Default: false."""
     spacing: float
-    """Edge of a lattice cube in polycube units; 0 derives it. Default: 0."""
+    """Edge of a lattice cube in polycube units, everywhere; 0 suits the lattice to the map. Default: 0."""
     min_level: int
     """Cells are at least this deep. Default: 0."""
     max_level: int

@@ -32,6 +32,13 @@ class Facets(NamedTuple):
     side: NDArray[np.int8]  #: (n,) which face of it: -x, +x, -y, +y, -z, +z of its local axes
 
 
+class SecondOrder(NamedTuple):
+    """Elements of second order."""
+
+    points: NDArray[np.float64]  #: (n + e, 3) the mesh's points, then the node of each edge
+    hexes: NDArray[np.int32]  #: (k, 20) point numbers in VTK's order: corners, then edges
+
+
 class HexMesh:
     """A hexahedral mesh. Its arrays are views that cannot be written to; no data is copied for them.
 
@@ -95,6 +102,15 @@ class HexMesh:
     def hexes(self) -> NDArray[np.int32]:
         """Point numbers, shape (k, 8), in VTK's order."""
         return self._core.hexes
+
+    @property
+    def order(self) -> int:
+        """2 when edges have nodes of their own, as of ``mesh(..., order=2)``; else 1."""
+        return self._core.order
+
+    def second_order(self) -> SecondOrder:
+        """The elements with 20 nodes; of a mesh of order 1, with straight edges. A copy."""
+        return SecondOrder(*self._core.second_order())
 
     @property
     def regions(self) -> NDArray[np.int32]:
@@ -164,7 +180,9 @@ class HexMesh:
         """Whether there are no ``failures``."""
         return not self.failures
 
-    def save(self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None, format: str = "") -> None:
+    def save(
+        self, path: PathLike, fields: Mapping[str, ArrayLike] | None = None, format: str = "", nodes: int = 0
+    ) -> None:
         """Writes the mesh by extension: .vtu, .vtk, .mesh, .msh (Gmsh 4.1), .inp (Abaqus), polyMesh (OpenFOAM), ...
 
         The same bytes as the command line writes. The file appears whole or not at all. Names of patches that a format
@@ -177,9 +195,13 @@ class HexMesh:
             Values per hex to write beside the scaled Jacobian, in the formats that have them.
         format : str, optional
             The format where the extension does not tell, as ``--format`` of the command line.
+        nodes : {0, 8, 20, 27}, optional
+            Of a mesh of order 2, nodes per hex: 0 what is usual in the format, 8 to leave the further ones out.
         """
+        if nodes not in (0, 8, 20, 27):
+            raise BadInput(f"nodes: {nodes} is none of 0, 8, 20, 27")
         pairs = [(name, to_array(values, name)) for name, values in (fields or {}).items()]
-        changed = self._core.save(os.fspath(path), pairs, format)
+        changed = self._core.save(os.fspath(path), pairs, format, nodes)
         if changed:
             told = ", ".join(f"'{given}' is '{written}'" for given, written in changed)
             warnings.warn(f"{os.fspath(path)}: names that the format cannot take: {told}", HexwrightWarning, stacklevel=2)

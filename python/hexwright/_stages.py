@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
+from ._cad import cad_file, is_cad, to_rules, warn_unmatched
 from ._errors import BadInput, HexwrightWarning
 from ._grid import Grid, as_grid
 from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets
@@ -59,7 +60,8 @@ def mesh(
     ----------
     surface : path, array_like of shape (n, 3), or object
         A file (OBJ, OFF, STL, PLY); vertices, with ``faces``; a pair of arrays; or an object with vertices and faces such
-        as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once.
+        as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once. Where the
+        package was built with its reader of CAD files also STEP, IGES and BREP files, and parts of cadquery and build123d.
     faces : array_like of shape (m, 3), optional
         Vertex numbers from 0, counter-clockwise seen from outside.
     patches : mapping of str to array_like or str, optional
@@ -100,11 +102,21 @@ def mesh(
     >>> m.valid, len(m.patches), len(m.curves), len(m.corners)
     (True, 6, 12, 8)
     """
-    given = as_surface(surface, faces, patches)
     call = to_call("mesh", options, progress, threads)
-    core, grid, text = _core.mesh(given._core, as_edges(features), call)
+    said: list[str] = []
+    if faces is None and is_cad(surface):
+        if features is not None:
+            raise BadInput("features: a CAD part brings its own; tangent_edges=True adds the smooth edges")
+        rules = to_rules(patches)
+        with cad_file(surface) as path:
+            core, grid, text, matched = _core.mesh_cad(path, rules, call)
+        warn_unmatched(rules, matched)
+    else:
+        given = as_surface(surface, faces, patches)
+        said = given.warnings
+        core, grid, text = _core.mesh(given._core, as_edges(features), call)
     report = json.loads(text)
-    result = HexMesh._wrap(core, report, given.warnings + report["warnings"], report["failures"])
+    result = HexMesh._wrap(core, report, said + report["warnings"], report["failures"])
     result.grid = Grid._wrap(grid)
     return _finish(result, strict)
 

@@ -1,4 +1,6 @@
 // Hex meshes: views of their arrays, their labelled parts, quality and files.
+#include <algorithm>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -55,6 +57,28 @@ nb::object regions_of(nb::handle self) {
   return view_values(mesh.region.raw().data(), mesh.num_hexes(), self);
 }
 
+/// Points and mid-nodes as one array, and the 20 nodes of each hex in VTK's order.
+nb::tuple second_order_of(const HexMesh& mesh) {
+  std::vector<Vec3> points;
+  std::vector<std::array<VertId, 20>> hexes;
+  {
+    const nb::gil_scoped_release released;
+    const MidNodes nodes = mesh.mid_nodes ? *mesh.mid_nodes : make_straight_mid_nodes(mesh);
+    points = mesh.positions.raw();
+    points.insert(points.end(), nodes.edges.begin(), nodes.edges.end());
+    hexes.resize(mesh.num_hexes());
+    for (HexId h : mesh.hexes.ids()) {
+      std::copy(mesh.hexes[h].begin(), mesh.hexes[h].end(), hexes[h.index()].begin());
+      for (std::size_t le = 0; le < 12; ++le)
+        hexes[h.index()][8 + le] = VertId(mesh.num_verts() + nodes.hex_to_edge[h][le].index());
+    }
+  }
+  const auto [held_points, points_owner] = keep(std::move(points));
+  const auto [held_hexes, hexes_owner] = keep(std::move(hexes));
+  return nb::make_tuple(view_points(*held_points, points_owner),
+                        view_elements(*held_hexes, hexes_owner));
+}
+
 nb::object corners_of(nb::handle self) { return view_ids(mesh_of(self).labels.corners, self); }
 
 std::vector<double> measure(const HexMesh& mesh, const std::string& name) {
@@ -88,9 +112,11 @@ using Field = std::pair<std::string, AnyArray>;
 /// Names of sets that the format could not take, each with what was written instead.
 std::vector<std::pair<std::string, std::string>> save(const HexMesh& mesh, const std::string& path,
                                                       const std::vector<Field>& fields,
-                                                      const std::string& format) {
+                                                      const std::string& format,
+                                                      int nodes_per_hex) {
   WriteHexOptions options;
   options.format = format;
+  options.nodes_per_hex = nodes_per_hex;
   options.fields.push_back({"scaled_jacobian", {}});
   for (const auto& [name, values] : fields)
     options.fields.push_back({name, to_numbers(values, mesh.num_hexes(), name)});
@@ -190,7 +216,9 @@ void bind_mesh(nb::module_& module) {
       "tag"_a);
   type.def("quality", &quality_of, "name"_a,
            nb::sig("def quality(self, name: str) -> numpy.typing.NDArray[numpy.float64]"))
-      .def("save", &save, "path"_a, "fields"_a, "format"_a)
+      .def("save", &save, "path"_a, "fields"_a, "format"_a, "nodes"_a)
+      .def_prop_ro("order", [](const HexMesh& mesh) { return mesh.mid_nodes ? 2 : 1; })
+      .def("second_order", &second_order_of)
       .def("facets", &facets_of)
       .def("curves", &curves_of);
   module.def("write_view", &write_view, "path"_a, "mesh"_a, "title"_a, "surface"_a.none(),

@@ -14,7 +14,10 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/geometry/patch_rules.h"
 #include "hexwright/geometry/prepare_surface.h"
+#include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
 
@@ -72,6 +75,29 @@ nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, 
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report);
 }
 
+/// A CAD file; `rules` as --patch of the command line takes them.
+nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>& rules,
+                        const Call& call) {
+  const auto options = read_options<MeshOptions>(call);
+  std::vector<PatchRule> parsed;
+  for (const std::string& text : rules) {
+    parsed.push_back(parse_patch_rule(text));
+    for (PatchCondition& condition : parsed.back().conditions)
+      if (!condition.path.empty()) condition.surface = read_surface(condition.path).mesh;
+  }
+  MeshResult result;
+  std::string report;
+  CadInput input;
+  run_stage(call.run, [&](const Context& context) {
+    input = prepare_cad(read_cad(path, read_options_for(options)), std::move(parsed), options);
+    for (const std::string& warning : input.model.warnings) context.warn(warning);
+    result = mesh_cad(input, options, context);
+    report = report_to_json(
+        result, options, {path, "", num_threads(), {}, summarize_cad(input.model, input.surface)});
+  });
+  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, input.num_matched);
+}
+
 nb::tuple grid(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
   MeshOptions options;
   apply_options(make_grid_option_table(options), call.options);
@@ -101,23 +127,23 @@ nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
                    const std::optional<AnyArray>& features, const Call& call) {
   auto options = read_options<FitStageOptions>(call);
   add_features(surface, features, options.target.features);
-  FitResult result;
+  FitStageResult result;
   Verdict verdict;
   const Warnings warnings = run_stage(call.run, [&](const Context& context) {
     const Target target = make_target(surface, options.target, context);
-    result = fit(to_unit(background, target.frame), target, options.fit, context);
-    if (result.mesh.num_hexes() == 0)
+    result = run_fit_stage(to_unit(background, target.frame), target, options, context);
+    if (result.fit.mesh.num_hexes() == 0)
       throw Error(ErrorCode::BadGeometry,
                   "no hex lies inside the surface; the mesh and the surface must overlap and the "
                   "hexes be smaller than the object");
     JudgeOptions judged;
     if (options.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
-    verdict = judge(result.mesh, target, judged, context);
+    verdict = judge(result.fit.mesh, target, judged, context);
     result.to_world(target.frame);
     verdict.to_world(target.frame);
   });
-  const std::string report = fit_to_json(result.report);
-  return nb::make_tuple(std::move(result.mesh), report, verdict_to_json(verdict), warnings);
+  const std::string report = fit_to_json(result);
+  return nb::make_tuple(std::move(result.fit.mesh), report, verdict_to_json(verdict), warnings);
 }
 
 nb::tuple check(const HexMesh& mesh, const TriMesh* surface,
@@ -197,6 +223,10 @@ void bind_stages(nb::module_& module) {
             new (self) Call{options, {progress, threads}};
           },
           "options"_a, "progress"_a.none(), "threads"_a);
+  module.def(
+      "is_cad_file", [](const std::string& path) { return is_cad_file(path); }, "path"_a);
+  module.def("can_read_cad", &can_read_cad);
+  module.def("mesh_cad", &mesh_cad_file, "path"_a, "rules"_a, "call"_a);
   module.def("mesh", &mesh, "surface"_a, "features"_a.none(), "call"_a);
   module.def("grid", &grid, "surface"_a, "features"_a.none(), "call"_a);
   module.def("complete", &complete_grid, "grid"_a, "call"_a);

@@ -148,7 +148,7 @@ class Fitter {
     clock_.run("carve", 0.02, [&] { kept = keep_hexes(background); });
     const FitState& carved = *kept;
     report_.num_hexes_carved = carved.mesh.num_hexes();
-    if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_), {}};
+    if (carved.mesh.num_hexes() == 0) return {{}, std::move(report_), {}, {}};
     Attempt scaffold{carved, {}, {}, {}, {}};  // nothing mapped yet
     clock_.run("pad", 0.2, [&] {
       if (!pad_boundary(scaffold.state))
@@ -281,7 +281,8 @@ class Fitter {
   }
 
   bool is_lifting() const {
-    return options_.lift_goal > 0 && options_.patch_verts != PatchVerts::OnSurface;
+    return options_.lift_goal > 0 &&
+           (options_.patch_verts != PatchVerts::OnSurface || options_.lifts_off_surface);
   }
 
   bool is_selective() const {
@@ -411,7 +412,11 @@ class Fitter {
         Side::Outside)  // counter-clockwise seen from outside the mesh, not the object
       for (LabeledQuad& quad : state.mesh.labels.quads) std::swap(quad.verts[1], quad.verts[3]);
     remove_unused_verts(state.mesh);
-    return {std::move(state.mesh), std::move(report_), {}};
+    return {std::move(state.mesh),
+            std::move(report_),
+            {},
+            std::make_shared<SurfaceParts>(
+                SurfaceParts{std::move(features_), std::move(result.patches)})};
   }
 
   // The name that the whole surface has is that of the solid.

@@ -85,6 +85,8 @@ std::optional<Issue> HexMesh::find_problem() const {
   if (!region.empty() && region.size() != num_hexes())
     return Issue{"region tags do not match the number of hexes"};
   if (auto issue = find_bad_label(labels, num_verts())) return issue;
+  if (mid_nodes)
+    if (auto issue = mid_nodes->find_problem(num_hexes())) return issue;
   return find_bad_position(positions);
 }
 

@@ -7,11 +7,15 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
+#include "hexwright/grid/locate.h"
 #include "hexwright/pipeline/plan.h"
 #include "hexwright/pipeline/size_plan.h"
 
 #include "base/stage_log.h"
+#include "pipeline/bodies_apart.h"
 #include "pipeline/loop/budgets.h"
+#include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
 #include "pipeline/loop/outer_faces.h"
 #include "pipeline/size_search.h"
@@ -68,6 +72,7 @@ void check_after_mapping(const Similarity& frame, MeshResult& result) {
 void take_round(Round&& round, MeshResult& result) {
   result.mesh = std::move(round.fit.mesh);
   result.fit = std::move(round.fit.report);
+  result.curving = std::move(round.curving);
   result.grid = std::move(round.grid);
   result.verdict = std::move(round.verdict);
   result.complete = std::move(round.complete);
@@ -75,8 +80,19 @@ void take_round(Round&& round, MeshResult& result) {
   for (StageRecord& stage : round.stages) result.stages.push_back(std::move(stage));
 }
 
-/// Everything behind the target, in its coordinates.
-MeshResult run_stages(const Target& target, const MeshOptions& options, const Context& context) {
+IdVector<HexId, std::int8_t> find_levels(const HexMesh& mesh, const Grid& grid) {
+  IdVector<HexId, std::int8_t> levels(mesh.num_hexes(), 0);
+  parallel_for(mesh.num_hexes(), [&](std::size_t i) {
+    Vec3 center;
+    for (const Vec3& p : mesh.corners(HexId(i))) center += p / 8;
+    const CellId cell = find_leaf_at(grid, center);
+    if (cell.is_valid()) levels[HexId(i)] = static_cast<std::int8_t>(grid.cells[cell].level);
+  });
+  return levels;
+}
+
+/// Grid, hexes, fit; again where the fit missed. In the world's coordinates.
+MeshResult mesh_target(const Target& target, const MeshOptions& options, const Context& context) {
   MeshResult result;
   result.surface = target.diagnosis;
   result.pose = target.frame.pose;
@@ -85,12 +101,17 @@ MeshResult run_stages(const Target& target, const MeshOptions& options, const Co
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  best = layer_round(input, std::move(best), result);
+  if (options.exact) result.exact = put_on_exact_shape(input, best);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
+  result.levels = find_levels(result.mesh, result.grid);
   if (stages.sizing.domain && options.fit.carve.side != Side::Inside)
     name_outer_faces(box_of(*stages.sizing.domain), result.mesh);
   result.edges = measure_edges(result.mesh);
   result.tolerance = options.sizing.tolerance;
+  result.to_world(target.frame);
+  check_after_mapping(target.frame, result);
   return result;
 }
 
@@ -105,6 +126,32 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
   return context;
 }
 
+/// Bodies that are too near to each other for one grid each by itself, then judged together.
+MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const Context& context) {
+  const std::vector<TriMesh> parts = split_near_bodies(target, plan_gap(options, target));
+  if (parts.size() < 2) return mesh_target(target, options, context);
+  std::vector<MeshResult> results;
+  for (const TriMesh& part : parts) {
+    context.check_cancelled();
+    const MeshOptions wishes = plan_part(options, target, part);
+    results.push_back(
+        mesh_target(make_target(part, plan_target(wishes), context), wishes, context));
+  }
+  MeshResult result = join_parts(std::move(results), target.surface());
+  result.surface = target.diagnosis;
+  result.surface.notes.push_back(fmt::format(
+      "bodies that touch or nearly touch are meshed each by itself, in {} groups", parts.size()));
+  result.verdict = judge(to_unit(result.mesh, target.frame), target,
+                         plan(options, target, context).judge, context);
+  for (const std::string& failure : result.verdict.failures)
+    if (std::ranges::find(result.failures, failure) == result.failures.end())
+      result.failures.push_back(failure);
+  result.verdict.to_world(target.frame);
+  result.edges = measure_edges(result.mesh);
+  result.tolerance = options.sizing.tolerance;
+  return result;
+}
+
 }  // namespace
 
 void MeshResult::to_world(const Similarity& frame) {
@@ -113,6 +160,8 @@ void MeshResult::to_world(const Similarity& frame) {
   grid.frame.to_world(frame);
   sizing.to_world(frame);
   fit.to_world(frame);
+  if (curving) curving->to_world(frame);
+  layers.to_world(frame);
   edges.to_world(frame);
 }
 
@@ -122,18 +171,13 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const
   const auto watch = caller.watch();
   std::vector<std::string> warnings;
   const Context context = collect_warnings(caller, warnings);
-
-  // What is known of the surface, in unit coordinates.
   const Target target = make_target(surface, plan_target(options), context);
-  // Grid, hexes, fit; again where the fit missed; and all of it again where sizes were.
   MeshResult result = search_sizes(
       target, options,
       [&](const MeshOptions& sized, const Context& of_run) {
-        return run_stages(target, sized, of_run);
+        return mesh_bodies(target, sized, of_run);
       },
       context);
-  result.to_world(target.frame);
-  check_after_mapping(target.frame, result);
   result.size_asked = wishes.sizes.size.in(bounding_box(surface).diagonal());
   result.warnings = std::move(warnings);
   result.seconds = clock.seconds();

@@ -68,7 +68,7 @@ double next_scale(double too_coarse, std::optional<double> fine, double too_long
 MeshResult shorten_edges(const Target& target, const MeshOptions& options, Run run,
                          const Context& context) {
   const double share = share_of_size(options, target);
-  const double longest = kEdgeRoom * share * target.diagonal();
+  const double longest = target.frame.length_to_world(kEdgeRoom * share * target.diagonal());
   MeshResult best = run_quietly(run, options, context);
   double too_coarse = 1, too_long_by = best.edges.high / longest;
   std::optional<double> fine;

@@ -45,4 +45,20 @@ DualResult run_dual_stage(const Grid& grid, const DualStageOptions& options,
   return build_dual(grid, dual, context);
 }
 
+void FitStageResult::to_world(const Similarity& frame) {
+  fit.to_world(frame);
+  if (curving) curving->to_world(frame);
+}
+
+FitStageResult run_fit_stage(const HexMesh& background, const Target& target,
+                             const FitStageOptions& options, const Context& context) {
+  FitOptions wishes = options.fit;
+  if (options.order == 2) wishes.patch_verts = PatchVerts::OnSurface;
+  FitStageResult result{fit(background, target, wishes, context), {}};
+  if (options.order == 2 && result.fit.parts)
+    result.curving =
+        curve_mesh(result.fit.mesh, {target.tree, *result.fit.parts, wishes.carve.side}, context);
+  return result;
+}
+
 }  // namespace hexwright

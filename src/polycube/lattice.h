@@ -9,6 +9,8 @@
 #include "hexwright/grid/grid.h"
 #include "hexwright/mesh/tet_mesh.h"
 
+#include "polycube/axis_scales.h"
+
 namespace hexwright::polycube {
 
 /// A connected part of the boundary whose facets face one of the six axis directions.
@@ -26,13 +28,19 @@ struct Lattice {
   std::vector<Chart> charts;
   std::vector<LatticeCoord> roots;  ///< unit cubes inside, sorted (z, y, x)
   double spacing = 0;
-  double max_deviation = 0;           ///< share of the spacing
+  double max_deviation = 0;           ///< of a vertex from its chart's plane, share of the spacing
   std::size_t num_merged_charts = 0;  ///< too small for the lattice, given to a neighbour
   std::size_t num_unaligned = 0;      ///< facets that face no axis but are too small to matter
 };
 
-/// `spacing` 0 derives it: the least distance of two planes of an axis, at least 1/16 of the
-/// extent. Errors: BadGeometry naming the facet that is not axis-aligned, or when no cube fits.
+struct Faces;
+
+/// Lays the faces' polycube on the integer lattice; `spacing` is what the report calls its unit.
+/// Errors: BadGeometry when no cube lies inside, BadArgument when one side has over 1000 cubes.
+Lattice place_on_lattice(const Faces& faces, const AxisScales& scales, double spacing);
+
+/// On an even lattice. `spacing` 0 derives it: geometric_spacing(). Errors: also those of
+/// find_faces().
 Lattice fit_lattice(const TetMesh& polycube, double spacing);
 
 }  // namespace hexwright::polycube

@@ -14,6 +14,7 @@
 #include "hexwright/quality/surface_distance.h"
 
 #include "polycube/boundary_map.h"
+#include "polycube/choose_lattice.h"
 #include "polycube/lattice.h"
 #include "polycube/map_back.h"
 #include "polycube/refine_misses.h"
@@ -35,7 +36,7 @@ void check_pair(const TetMesh& object, const TetMesh& polycube) {
                     " tets; both must come from one tet mesh, with other positions only");
   if (object.num_tets() == 0)
     throw Error(ErrorCode::BadGeometry,
-                "the meshes hold no tetrahedra; write them with volume cells");
+                "the meshes hold no elements; write them with volume cells");
   for (TetId t : object.tets.ids())
     if (object.tets[t] != polycube.tets[t])
       throw Error(ErrorCode::BadGeometry,
@@ -44,15 +45,9 @@ void check_pair(const TetMesh& object, const TetMesh& polycube) {
                       "list the same tets in the same order");
 }
 
-std::size_t count_nonpositive(const TetMesh& mesh) {
-  std::size_t count = 0;
-  for (TetId t : mesh.tets.ids()) count += polycube::tet_det(polycube::tet_corners(mesh, t)) <= 0;
-  return count;
-}
-
 // Tets may be listed with negative volumes throughout; both meshes are then turned.
 void orient(TetMesh& object, TetMesh& polycube) {
-  if (2 * count_nonpositive(polycube) <= polycube.num_tets()) return;
+  if (2 * polycube::count_nonpositive(polycube) <= polycube.num_tets()) return;
   for (TetId t : polycube.tets.ids()) {
     std::swap(polycube.tets[t][2], polycube.tets[t][3]);
     std::swap(object.tets[t][2], object.tets[t][3]);
@@ -84,6 +79,8 @@ struct Attempt {
   Grid grid;
   std::size_t num_inverted = 0, num_bridged = 0, num_inverted_mapped = 0;
   SurfaceDistance distance;
+  polycube::RelaxReport relaxed;
+  std::vector<Vec3> missed;  // where finer cells would help: the surface is far, hexes are inverted
 
   bool beats(const Attempt& other) const {
     if (num_inverted != other.num_inverted) return num_inverted < other.num_inverted;
@@ -118,11 +115,11 @@ class Mesher {
     report.num_sampled_cells = sampled.num_cells();
     Attempt best = attempt(sampled);
     report.num_rounds = 1;
-    for (std::vector<Vec3> missed = best.distance.hot;
+    for (std::vector<Vec3> missed = best.missed;
          !missed.empty() && report.num_rounds < options_.max_rounds; ++report.num_rounds) {
       if (!split_at(missed, sampled, report)) break;
       Attempt next = attempt(sampled);
-      missed = next.distance.hot;
+      missed = next.missed;
       if (!next.beats(best)) continue;
       best = std::move(next);
       report.num_sampled_cells = sampled.num_cells();
@@ -134,16 +131,13 @@ class Mesher {
   Attempt attempt(const Grid& sampled) {
     Attempt a;
     a.grid = complete(sampled, options_.complete, context_).grid;
-    const bool is_paired = options_.complete.pairing == Pairing::Blocks ||
-                           options_.complete.pairing == Pairing::Octree;
-    DualOptions dual_options;
-    dual_options.mode = is_paired ? DualMode::Blocks : DualMode::Sheets;
-    const DualResult dual = build_dual(a.grid, dual_options, context_);
+    const DualResult dual = polycube::make_dual(a.grid, options_, context_);
 
     auto mapped = polycube::map_back(dual.mesh, object_, lattice_, in_polycube_);
     a.num_bridged = mapped.num_bridged;
     a.num_inverted_mapped = summarize_quality(mapped.mesh).num_inverted;
-    polycube::relax(mapped, {features_, lattice_, target_.tree}, relax_options(), context_);
+    a.relaxed =
+        polycube::relax(mapped, {features_, lattice_, target_.tree}, relax_options(), context_);
     a.mesh = std::move(mapped.mesh);
     a.num_inverted = summarize_quality(a.mesh).num_inverted;
     if (options_.max_surface_error > 0) {
@@ -151,7 +145,21 @@ class Mesher {
       distance.hot_threshold = 0.9 * options_.max_surface_error;
       a.distance = measure_distance(a.mesh, target_.tree, distance);
     }
+    a.missed = a.distance.hot;
+    add_inverted(a.mesh, a.missed);
     return a;
+  }
+
+  static void add_inverted(const HexMesh& mesh, std::vector<Vec3>& places) {
+    const auto quality = compute_scaled_jacobians(mesh);
+    for (HexId h : quality.ids())
+      if (!(quality[h] > 0)) places.push_back(center_of(mesh, h));
+  }
+
+  static Vec3 center_of(const HexMesh& mesh, HexId h) {
+    Vec3 center;
+    for (VertId v : mesh.hexes[h]) center += mesh.positions[v] * 0.125;
+    return center;
   }
 
   // A third of the distance allowed is left to what lies between the vertices.
@@ -187,8 +195,7 @@ class Mesher {
         for (VertId v : lattice_.tets.tets[t]) is_near_fold[v.index()] = 1;
     for (HexId h : quality.ids()) {
       if (quality[h] > 0) continue;
-      FoldedHex f{h, {}, quality[h], {}, false};
-      for (VertId v : mesh.hexes[h]) f.center += mesh.positions[v] * 0.125;
+      FoldedHex f{h, center_of(mesh, h), quality[h], {}, false};
       f.tet = in_object_.locate(f.center).tet;
       for (VertId v : object_.tets[f.tet]) f.is_map_folded |= is_near_fold[v.index()] != 0;
       folded.push_back(f);
@@ -200,6 +207,10 @@ class Mesher {
     report.num_cells = best.grid.num_cells();
     report.num_bridged = best.num_bridged;
     report.num_inverted_mapped = best.num_inverted_mapped;
+    report.num_off_edges = best.relaxed.num_off_edges;
+    report.num_off_surface = best.relaxed.num_off_surface;
+    report.max_off_surface = best.relaxed.max_off_surface / target_.diagonal();
+    report.farthest_off = best.relaxed.farthest_off;
     report.max_distance = best.distance.max_two_way();
     report.folded = find_folded(best.mesh);
     Verdict verdict = judge(best.mesh, target_, {}, context_);
@@ -234,6 +245,7 @@ Similarity place(TetMesh& object, PolycubeOptions& options) {
 
 void PolycubeReport::to_world(const Similarity& frame) {
   for (FoldedHex& hex : folded) hex.to_world(frame);
+  if (num_off_surface > 0) farthest_off = frame.to_world(farthest_off);
 }
 
 void PolycubeResult::to_world(const Similarity& frame) {
@@ -252,11 +264,15 @@ PolycubeResult mesh_polycube(const TetMesh& object_in, const TetMesh& polycube_i
   PolycubeOptions options = given;
   const Similarity frame = place(object, options);
 
-  polycube::Lattice lattice = polycube::fit_lattice(polycube, options.spacing);
+  if (options.target_hexes > 0) {
+    options.max_surface_error = 0;
+    options.max_stretch = polycube::find_stretch(object, polycube, options, context);
+  }
+  polycube::Lattice lattice = polycube::choose_lattice(object, polycube, options);
   PolycubeReport report;
   report.num_tets = object.num_tets();
-  report.num_nonpositive_object = count_nonpositive(object);
-  report.num_nonpositive_polycube = count_nonpositive(lattice.tets);
+  report.num_nonpositive_object = polycube::count_nonpositive(object);
+  report.num_nonpositive_polycube = polycube::count_nonpositive(lattice.tets);
   report_lattice(lattice, report);
   auto repair = polycube::repair_map(object, lattice, context);
   report.num_nonpositive_left = repair.num_nonpositive;

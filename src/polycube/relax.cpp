@@ -31,6 +31,7 @@ using relax::VertKind;
 
 constexpr double kClearlyPositive = 0.02;  // scaled Jacobian above which a hex is left alone
 constexpr int kMaxSlidingRounds = 12;
+const std::vector<double> kShares = {0.1, 0.01, 0.001};
 
 // The polycube's edges on the object as curves, cut only where they meet.
 FeatureGraph chart_curves(const ObjectFeatures& object) {
@@ -77,17 +78,6 @@ void constrain(FitState& state, const IdVector<VertId, BoundaryPlace>& place,
   }
 }
 
-std::vector<char> verts_of_bad_hexes(const FitState& state) {
-  std::vector<char> is_member;
-  const auto quality = compute_scaled_jacobians(state.mesh);
-  for (HexId h : quality.ids()) {
-    if (quality[h] > kClearlyPositive) continue;
-    is_member.resize(state.num_verts(), 0);
-    for (VertId v : state.mesh.hexes[h]) is_member[v.index()] = 1;
-  }
-  return is_member;
-}
-
 std::size_t count_inverted(const FitState& state) {
   return summarize_quality(state.mesh).num_inverted;
 }
@@ -108,34 +98,50 @@ void untangle_inside(FitState& state, const Context& context) {
   const auto move = state.move;
   for (VertId v : state.kind.ids())
     if (state.is_boundary(v)) state.move[v] = MoveIn::Point;
-  relax::untangle(state, context);
+  relax::untangle(state, {.shares = kShares}, context);
   state.move = move;
 }
 
 // With boundary vertices gliding on their faces and edges, the looser the smaller the weight.
 void untangle_sliding(FitState& state, const FitTarget& target, double weight,
                       const Context& context) {
-  for (int round = 0; round < kMaxSlidingRounds; ++round) {
-    context.check_cancelled();
-    auto is_member = verts_of_bad_hexes(state);
-    if (is_member.empty()) return;
-    relax::grow_vert_set(state, is_member, 2 + round / 4);
-    const relax::LocalSweep local(state, is_member);
-    relax::SweepOptions options;
-    options.untangle_share = round % 2 == 0 ? 0.1 : 0.01;
-    options.weight = weight;
-    for (int k = 0; k < 3; ++k) {
-      relax::update_targets(state, target, 0, is_member);
-      local.run(state, options);
-    }
-  }
+  relax::UntangleOptions options;
+  options.shares = kShares;
+  options.max_rounds = kMaxSlidingRounds;
+  options.sweeps = 3;
+  options.low = kClearlyPositive;
+  options.target = &target;
+  options.weight = weight;
+  relax::untangle(state, options, context);
 }
 
-// From what costs no distance to what gives up the surface where the map itself is folded.
-void untangle(FitState& state, const FitTarget& target, const Context& context) {
+// Vertices of inverted hexes on the polycube's edges and corners become vertices of the surface,
+// which is smooth there more often than not. Returns how many did.
+std::size_t release_edges(FitState& state) {
+  std::size_t num_released = 0;
+  const auto quality = compute_scaled_jacobians(state.mesh);
+  for (HexId h : quality.ids()) {
+    if (quality[h] > 0) continue;
+    for (VertId v : state.mesh.hexes[h]) {
+      if (state.kind[v] != VertKind::Curve && state.kind[v] != VertKind::Corner) continue;
+      state.kind[v] = VertKind::Surface;
+      state.patch[v] = {};
+      ++num_released;
+    }
+  }
+  return num_released;
+}
+
+// From what costs nothing to what gives up the polycube's edges, and at last the surface. Returns
+// how many vertices left those edges.
+std::size_t untangle(FitState& state, const FitTarget& target, const Context& context) {
   try_untangling(state, [&] { untangle_inside(state, context); });
+  for (double weight : {1e4, 10.0})
+    try_untangling(state, [&] { untangle_sliding(state, target, weight, context); });
+  const std::size_t num_released = release_edges(state);
   for (double weight : {1e4, 10.0, 0.0})
     try_untangling(state, [&] { untangle_sliding(state, target, weight, context); });
+  return num_released;
 }
 
 // Brings back what the untangling took off the surface, as far as no hex inverts.
@@ -182,6 +188,18 @@ void improve_worst(FitState& state, const FitTarget& target, double near_surface
   relax::lift_worst(state, target, {}, context);
 }
 
+void find_off_surface(const FitState& state, double near_surface, RelaxReport& report) {
+  for (VertId v : state.kind.ids()) {
+    if (!state.is_boundary(v)) continue;
+    const double off = state.residual(v) * state.size[v];
+    if (off <= near_surface) continue;
+    ++report.num_off_surface;
+    if (off <= report.max_off_surface) continue;
+    report.max_off_surface = off;
+    report.farthest_off = state.mesh.positions[v];
+  }
+}
+
 PatchId patch_of_quad(const std::array<VertId, 4>& quad, const IdVector<VertId, PatchId>& patch) {
   for (VertId v : quad)
     if (patch[v].is_valid()) return patch[v];
@@ -216,8 +234,8 @@ void label(const FitState& state, const HexMesh& mapped, const FitTarget& target
 
 }  // namespace
 
-void relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
-           const Context& context) {
+RelaxReport relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
+                  const Context& context) {
   const auto& [object, lattice, tree] = scene;
   const FeatureGraph graph = chart_curves(object);
   IdVector<TriId, PatchId> facet_to_patch(lattice.facets.size());
@@ -228,13 +246,17 @@ void relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& opti
   FitState state(std::move(mapped.mesh));
   constrain(state, mapped.place, object, graph, lattice.facet_to_chart);
   context.progress("untangle", 0);
-  untangle(state, target, context);
+  RelaxReport report;
+  report.num_off_edges = untangle(state, target, context);
   pull_to_surface(state, target, context);
   context.progress("improve", 0);
   if (options.pad) pad_and_smooth(state, target, context);
   improve_worst(state, target, options.near_surface, context);
+  relax::update_targets(state, target, 0);
+  find_off_surface(state, options.near_surface, report);
   mapped.mesh = std::move(state.mesh);
   label(state, mapped.mesh, target, mapped.mesh.labels);
+  return report;
 }
 
 }  // namespace hexwright::polycube

@@ -22,9 +22,16 @@ struct RelaxScene {
   const SurfaceTree& tree;  ///< of object.surface
 };
 
+struct RelaxReport {
+  std::size_t num_off_edges = 0;    ///< vertices let off the polycube's edges and corners
+  std::size_t num_off_surface = 0;  ///< boundary vertices farther than `near_surface` off
+  double max_off_surface = 0;       ///< the largest distance of one, world units
+  Vec3 farthest_off;                ///< where
+};
+
 /// Labels the boundary (patch = chart, curves, corners) and moves vertices; never inverts a hex
 /// that is not inverted.
-void relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
-           const Context& context);
+RelaxReport relax(MappedMesh& mapped, const RelaxScene& scene, const RelaxOptions& options,
+                  const Context& context);
 
 }  // namespace hexwright::polycube

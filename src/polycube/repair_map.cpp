@@ -24,14 +24,6 @@ using Edge = std::array<VertId, 2>;
 
 Edge make_edge(VertId a, VertId b) { return {std::min(a, b), std::max(a, b)}; }
 
-bool is_nonpositive(const TetMesh& mesh, TetId t) { return !(tet_det(tet_corners(mesh, t)) > 0); }
-
-std::size_t count_nonpositive(const TetMesh& mesh) {
-  std::size_t count = 0;
-  for (TetId t : mesh.tets.ids()) count += is_nonpositive(mesh, t);
-  return count;
-}
-
 // The charts that each boundary vertex lies on, ascending.
 std::vector<std::vector<int>> charts_of_verts(const Lattice& lattice) {
   std::vector<std::vector<int>> charts(lattice.tets.num_verts());

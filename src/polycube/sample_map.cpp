@@ -2,9 +2,9 @@
 //
 // Based on: Pitzalis et al. 2021, section 6.2: a cell is refined while two points of the object in
 // it are farther apart than a share of the diagonal.
-// Differs: 27 lattice points of the cell are carried over besides the object's vertices, since a
-// coarse tet mesh may have no vertex in a cell that the map stretches; and the surface's distance
-// is estimated beforehand (surface_misses.h).
+// Differs: the points are the object's vertices, and lines of 27 lattice points along the cell's
+// edges are carried over besides, since a coarse tet mesh may have no vertex in a cell that the map
+// stretches; and the surface's distance is estimated beforehand (surface_misses.h).
 #include "polycube/sample_map.h"
 
 #include <algorithm>
@@ -86,7 +86,8 @@ class VertsByCell {
 
 // The object's points that map into one cell.
 struct CellImage {
-  Spread spread;
+  Spread spread;       // of the object's vertices
+  double longest = 0;  // along an axis of the cell
   double mean_edge = 0;
   Vec3 center;
 };
@@ -120,7 +121,8 @@ class Sampler {
  private:
   // The spread is a lower bound of the diameter, so a cell is never split for a stretch it has not.
   bool is_coarse(const CellImage& image) const {
-    if (image.spread.width() > options_.max_stretch * diagonal_) return true;
+    const double limit = options_.max_stretch * diagonal_;
+    if (image.longest > limit || image.spread.width() > limit) return true;
     return options_.max_edge && image.mean_edge > options_.max_edge(image.center);
   }
 
@@ -135,7 +137,6 @@ class Sampler {
       const int x = k % 3, y = k / 3 % 3, z = k / 9;
       const Vec3 step = {x * half.x, y * half.y, z * half.z};
       at[k] = interpolate(map_.object, map_.locator.locate(cell.lo + step));
-      image.spread.add(at[k]);
     }
     image.center = at[13];
     constexpr int kStride[3] = {1, 3, 9};
@@ -144,6 +145,14 @@ class Sampler {
         const int low =
             (k & 1) * 2 * kStride[(axis + 1) % 3] + (k >> 1) * 2 * kStride[(axis + 2) % 3];
         image.mean_edge += distance(at[low], at[low + 2 * kStride[axis]]) / 12;
+      }
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 9; ++k) {  // the nine lines along the axis, around their middles
+        const int stride = kStride[axis];
+        const int middle =
+            stride + k % 3 * kStride[(axis + 1) % 3] + k / 3 * kStride[(axis + 2) % 3];
+        image.longest = std::max(image.longest, distance(at[middle - stride], at[middle]) +
+                                                    distance(at[middle], at[middle + stride]));
       }
     return image;
   }
@@ -179,6 +188,7 @@ Grid sample_map(const SampledMap& map, const PolycubeOptions& options, const Con
   std::vector<CellSpec> cells;
   for (const LatticeCoord& root : map.lattice.roots) cells.push_back({0, root});
   Grid grid = make_grid({}, map.lattice.roots, cells);
+  require_budget(grid, 0, 0, options);
   for (int level = 0; level < options.max_level; ++level) {
     context.check_cancelled();
     context.progress("sample the map", static_cast<double>(level) / options.max_level);

@@ -18,9 +18,8 @@ struct SampledMap {
 };
 
 /// Splits root cubes, level by level, while in a cell
-/// - two points of the object are farther apart than max_stretch times the object's diagonal
-/// (paper,
-///   section 6.2), measured on the images of 27 points and the object's vertices that map into it,
+/// - two of the object's vertices are farther apart than max_stretch times the object's diagonal
+///   (paper, section 6.2), or the cell is longer than that along an axis, mapped,
 /// - or its mapped edges are longer than the size field asks for,
 /// - or its faces on the boundary, mapped, stray from the object's surface by more than
 ///   max_surface_error.

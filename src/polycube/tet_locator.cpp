@@ -7,9 +7,11 @@
 #include "polycube/tet_locator.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
+#include <utility>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/parallel.h"
 
 namespace hexwright::polycube {
 namespace {
@@ -26,20 +28,43 @@ Box3 tet_box(const TetMesh& mesh, TetId t) {
   return box;
 }
 
-// Facet 4 * i + k is facet k of the i-th tet, which is how a hit leads back to its tet. Inner
-// facets occur twice; the lower tet wins among equally near ones, as the surface tree promises.
-TriMesh all_facets(const TetMesh& mesh, const std::vector<TetId>& tets) {
-  TriMesh facets;
-  facets.positions = mesh.positions;
-  for (TetId t : tets)
-    for (const auto& f : kFacets)
-      facets.tris.push_back({mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
-  return facets;
+double distance_sq(const Box3& box, const Vec3& p) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double off = std::max({box.lo[axis] - p[axis], p[axis] - box.hi[axis], 0.0});
+    sum += off * off;
+  }
+  return sum;
+}
+
+// Ericson, section 5.1.5: the Voronoi regions of the triangle's corners, then edges, then inside.
+Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a;
+  const double d1 = dot(ab, p - a), d2 = dot(ac, p - a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = dot(ab, p - b), d4 = dot(ac, p - b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double d5 = dot(ab, p - c), d6 = dot(ac, p - c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
 }  // namespace
 
 double tet_det(const std::array<Vec3, 4>& p) { return det(p[1] - p[0], p[2] - p[0], p[3] - p[0]); }
+
+std::size_t count_nonpositive(const TetMesh& mesh) {
+  std::size_t count = 0;
+  for (TetId t : mesh.tets.ids()) count += is_nonpositive(mesh, t);
+  return count;
+}
 
 // Each weight is the volume of the tet with one vertex replaced by p. Taken as differences from p,
 // so that the weights of a point near a vertex keep their digits far from the origin.
@@ -67,14 +92,18 @@ TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
   if (order_.empty())
     throw Error(ErrorCode::BadGeometry,
                 "no tetrahedron of the polycube has a positive volume; check its vertex order");
-  facets_ = std::make_unique<SurfaceTree>(all_facets(mesh, order_));
   build();
 }
 
 // Median split of the centres along the longest axis; ties by id, so that the tree is always the
 // same.
 void TetLocator::build() {
-  const std::vector<TetId> facet_order = order_;
+  IdVector<TetId, Box3> boxes(mesh_.num_tets());
+  IdVector<TetId, Vec3> centers_of(mesh_.num_tets());
+  parallel_for(mesh_.num_tets(), [&](std::size_t t) {
+    boxes[TetId(t)] = tet_box(mesh_, TetId(t));
+    centers_of[TetId(t)] = boxes[TetId(t)].center();
+  });
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size())});
   std::vector<std::uint32_t> stack = {0};
   while (!stack.empty()) {
@@ -83,9 +112,8 @@ void TetLocator::build() {
     const std::uint32_t first = nodes_[n].first, count = nodes_[n].count;
     Box3 box, centers;
     for (std::uint32_t i = first; i < first + count; ++i) {
-      const Box3 b = tet_box(mesh_, order_[i]);
-      box.extend(b);
-      centers.extend(b.center());
+      box.extend(boxes[order_[i]]);
+      centers.extend(centers_of[order_[i]]);
     }
     nodes_[n].box = box;
     if (count <= kLeafSize) continue;
@@ -94,7 +122,7 @@ void TetLocator::build() {
     const std::uint32_t half = count / 2;
     const auto begin = order_.begin() + first;
     std::nth_element(begin, begin + half, begin + count, [&](TetId a, TetId b) {
-      const double ca = tet_box(mesh_, a).center()[axis], cb = tet_box(mesh_, b).center()[axis];
+      const double ca = centers_of[a][axis], cb = centers_of[b][axis];
       return ca != cb ? ca < cb : a < b;
     });
     const auto child = static_cast<std::uint32_t>(nodes_.size());
@@ -105,7 +133,6 @@ void TetLocator::build() {
     stack.push_back(child);
     stack.push_back(child + 1);
   }
-  order_to_facet_owner_ = facet_order;
 }
 
 TetPoint TetLocator::locate(const Vec3& p) const {
@@ -145,12 +172,39 @@ TetPoint TetLocator::locate(const Vec3& p) const {
   return best;
 }
 
-// The nearest facet of a positive tet; weights that rounding made negative are cut off, so that the
-// result stays inside the tet.
+// The nearest facet of a positive tet, of the lowest tet among equally near ones; weights that
+// rounding made negative are cut off, so that the result stays inside the tet.
 TetPoint TetLocator::nearest(const Vec3& p) const {
-  const auto hit = facets_->closest(p);
-  const TetId tet = order_to_facet_owner_[hit->tri.index() / 4];
-  TetPoint result{tet, barycentric(tet_corners(mesh_, tet), hit->point), true};
+  double best = std::numeric_limits<double>::infinity();
+  TetId tet;
+  Vec3 place;
+  const auto try_tet = [&](TetId t) {
+    const auto corners = tet_corners(mesh_, t);
+    for (const auto& f : kFacets) {
+      const Vec3 q = closest_in_triangle(p, corners[f[0]], corners[f[1]], corners[f[2]]);
+      const double d = norm_sq(q - p);
+      if (d > best || (d == best && !(t < tet))) continue;
+      best = d;
+      tet = t;
+      place = q;
+    }
+  };
+  std::array<std::pair<double, std::uint32_t>, 128> stack;
+  std::size_t top = 0;
+  stack[top++] = {distance_sq(nodes_[0].box, p), 0};
+  while (top > 0) {
+    const auto [near, n] = stack[--top];
+    if (near > best) continue;
+    const Node& node = nodes_[n];
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) try_tet(order_[i]);
+    if (node.count > 0) continue;
+    std::pair<double, std::uint32_t> a{distance_sq(nodes_[node.first].box, p), node.first};
+    std::pair<double, std::uint32_t> b{distance_sq(nodes_[node.first + 1].box, p), node.first + 1};
+    if (a < b) std::swap(a, b);  // the nearer one on top
+    stack[top++] = a;
+    stack[top++] = b;
+  }
+  TetPoint result{tet, barycentric(tet_corners(mesh_, tet), place), true};
   double sum = 0;
   for (double& w : result.weight) sum += w = std::max(w, 0.0);
   for (double& w : result.weight) w /= sum;

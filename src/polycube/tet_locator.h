@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
-#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/tet_mesh.h"
 
 namespace hexwright::polycube {
@@ -40,12 +38,10 @@ class TetLocator {
   TetPoint nearest(const Vec3& p) const;
 
   const TetMesh& mesh_;
-  std::vector<TetId> order_;                 // tets of the leaves, as the nodes count them
-  std::vector<TetId> order_to_facet_owner_;  // facet / 4 -> tet
+  std::vector<TetId> order_;  // tets of the leaves, as the nodes count them
   std::vector<Node> nodes_;
   double slack_ = 0;  // boxes are enlarged by this, for points on facets
   std::size_t num_nonpositive_ = 0;
-  std::unique_ptr<SurfaceTree> facets_;  // the 4 facets of each positive tet, for bridging
 };
 
 /// Barycentric coordinates of p in a tet; they sum to 1 and are negative outside. Requires a
@@ -59,6 +55,11 @@ inline std::array<Vec3, 4> tet_corners(const TetMesh& mesh, TetId t) {
   const auto& v = mesh.tets[t];
   return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]], mesh.positions[v[3]]};
 }
+
+inline bool is_nonpositive(const TetMesh& mesh, TetId t) {
+  return !(tet_det(tet_corners(mesh, t)) > 0);
+}
+std::size_t count_nonpositive(const TetMesh& mesh);
 
 /// The combination's place in a mesh of the same connectivity.
 inline Vec3 interpolate(const TetMesh& mesh, const TetPoint& at) {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/judge.h"
@@ -69,6 +70,32 @@ std::vector<Edge> collect_edges(const std::vector<std::array<VertId, 4>>& quads)
   return edges;
 }
 
+using Segment = std::array<Vec3, 2>;
+
+/// Edges as segments; those of second order as several.
+std::vector<Segment> to_segments(const HexMesh& mesh, const std::vector<Edge>& edges) {
+  constexpr int kDivisions = 8;
+  std::vector<Segment> segments;
+  segments.reserve(edges.size());
+  std::optional<EdgeTable> table;
+  if (mesh.mid_nodes) table.emplace(mesh);
+  for (const auto& [first, last] : edges) {
+    const Vec3 &a = mesh.positions[first], &b = mesh.positions[last];
+    const EdgeId edge = table ? table->find(first, last) : EdgeId();
+    const Vec3 offset = edge.is_valid() ? mesh.mid_nodes->edges[edge] - 0.5 * (a + b) : Vec3{};
+    if (norm_sq(offset) == 0) {
+      segments.push_back({a, b});
+      continue;
+    }
+    const auto at = [&](int i) {
+      const double t = double(i) / kDivisions;
+      return a + t * (b - a) + 4 * t * (1 - t) * offset;
+    };
+    for (int i = 0; i < kDivisions; ++i) segments.push_back({at(i), at(i + 1)});
+  }
+  return segments;
+}
+
 double distance_sq_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const double length_sq = norm_sq(b - a);
   const double t = length_sq > 0 ? std::clamp(dot(p - a, b - a) / length_sq, 0.0, 1.0) : 0;
@@ -81,15 +108,14 @@ Box3 inflated_box(const Vec3& a, const Vec3& b, double margin) {
 }
 
 // Per sample: 1 when an edge runs along it within the tolerance.
-std::vector<char> find_recovered(const HexMesh& mesh, const std::vector<Edge>& edges,
-                                 const CurveSamples& samples, double tolerance) {
+std::vector<char> find_recovered(const std::vector<Segment>& edges, const CurveSamples& samples,
+                                 double tolerance) {
   const PointTree tree(samples.points);
   std::vector<char> is_recovered(samples.points.size(), 0);
   parallel_for(
       edges.size(),
       [&](std::size_t e) {
-        const Vec3& a = mesh.positions[edges[e][0]];
-        const Vec3& b = mesh.positions[edges[e][1]];
+        const auto& [a, b] = edges[e];
         const Vec3 direction = normalized(b - a);
         tree.visit_box(inflated_box(a, b, tolerance), [&](std::size_t i) {
           if (std::abs(dot(direction, samples.tangents[i])) >= kMinCosine &&
@@ -172,7 +198,7 @@ FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& tree,
   if (result.total_length > 0) {
     const double tolerance = options.edge_tolerance * diagonal;
     const CurveSamples samples = sample_curves(surface, features, tolerance);
-    add_up(samples, find_recovered(mesh, edges, samples, tolerance), result);
+    add_up(samples, find_recovered(to_segments(mesh, edges), samples, tolerance), result);
   }
   std::vector<Vec3> corners;
   for (VertId v : features.corners) corners.push_back(surface.positions[v]);

@@ -90,8 +90,6 @@ std::vector<HangingVert> find_hanging_verts(const HexMesh& mesh, const BoundaryS
   // Stable: the first face in the boundary's order stays the first of its vertex.
   std::stable_sort(hanging.begin(), hanging.end(),
                    [](const HangingVert& a, const HangingVert& b) { return a.vert < b.vert; });
-  const auto is_same = [](const HangingVert& a, const HangingVert& b) { return a.vert == b.vert; };
-  hanging.erase(std::unique(hanging.begin(), hanging.end(), is_same), hanging.end());
   return hanging;
 }
 

@@ -10,11 +10,12 @@ namespace hexwright {
 
 struct HangingVert {
   VertId vert;
-  HexFace face;  ///< the first boundary face that holds the vertex inside an edge or inside itself
+  HexFace face;  ///< a boundary face that holds the vertex inside an edge or inside itself
 };
 
-/// Sorted by vertex, each once. A vertex counts when it is within 1e-5 of the face's size of an
-/// edge's inside, or of the face's four triangles about its centre.
+/// Sorted by vertex, and those of a vertex by the boundary's order. A vertex counts when it is
+/// within 1e-5 of the face's size of an edge's inside, or of the face's four triangles about its
+/// centre.
 std::vector<HangingVert> find_hanging_verts(const HexMesh& mesh, const BoundarySurface& boundary);
 
 }  // namespace hexwright

@@ -3,7 +3,9 @@
 #include "hexwright/quality/hex_topology.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/hex_adjacency.h"
@@ -153,8 +155,51 @@ void check_boundary(const BoundarySurface& boundary, TopologyReport& report) {
                                          static_cast<long>(boundary.quads.size());
 }
 
+/// Tells contact of bodies from hexes that do not fit together: bodies have a region of their own
+/// each, and no vertex in common (which the levels of a grid, when they stand as regions, have).
+class Bodies {
+ public:
+  explicit Bodies(const HexMesh& mesh) : mesh_(mesh), sets_(mesh.num_verts()) {
+    for (const auto& hex : mesh.hexes)
+      for (VertId v : hex) sets_.unite(hex[0].index(), v.index());
+  }
+
+  bool are_in_contact(HexId a, HexId b) {
+    return mesh_.region[a] != mesh_.region[b] && body_of(a) != body_of(b);
+  }
+
+ private:
+  std::size_t body_of(HexId h) { return sets_.find(mesh_.hexes[h][0].index()); }
+
+  const HexMesh& mesh_;
+  DisjointSets sets_;
+};
+
+/// Takes out of them what only touches another body, and returns the number of vertices that do.
+std::size_t take_contacts(const HexMesh& mesh, const BoundarySurface& boundary,
+                          std::vector<HangingVert>& hanging) {
+  if (hanging.empty() || mesh.region.empty()) return 0;
+  std::map<VertId, HexId> vert_to_hex;
+  for (const HangingVert& h : hanging) vert_to_hex[h.vert];
+  for (std::size_t q = 0; q < boundary.quads.size(); ++q)
+    for (VertId v : boundary.quads[q])
+      if (const auto it = vert_to_hex.find(v); it != vert_to_hex.end())
+        it->second = boundary.faces[q].hex;
+  Bodies bodies(mesh);
+  std::set<VertId> contacts;
+  std::erase_if(hanging, [&](const HangingVert& h) {
+    const bool is_contact = bodies.are_in_contact(vert_to_hex[h.vert], h.face.hex);
+    if (is_contact) contacts.insert(h.vert);
+    return is_contact;
+  });
+  return contacts.size();
+}
+
 void check_hanging(const HexMesh& mesh, const BoundarySurface& boundary, TopologyReport& report) {
-  const auto hanging = find_hanging_verts(mesh, boundary);
+  auto hanging = find_hanging_verts(mesh, boundary);
+  report.num_contact_verts = take_contacts(mesh, boundary, hanging);
+  const auto is_same = [](const HangingVert& a, const HangingVert& b) { return a.vert == b.vert; };
+  hanging.erase(std::unique(hanging.begin(), hanging.end(), is_same), hanging.end());
   for (const HangingVert& h : hanging) report.hanging_verts.push_back(h.vert);
   if (!hanging.empty())
     add_problem(report, hanging.size(), "vertex(es) lie inside an edge or face of another hex",

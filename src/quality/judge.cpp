@@ -32,6 +32,22 @@ void add_quality_findings(Verdict& verdict) {
         "{} hex(es) could not be proven to have a positive Jacobian inside", q.num_undecided));
 }
 
+/// A curved element that is not positive fails wherever it comes from: solvers refuse it.
+void add_second_order_findings(Verdict& verdict) {
+  const SecondOrderQuality& q = *verdict.second_order;
+  if (q.num_not_positive > 0) {
+    std::string names;
+    for (HexId h : q.broken) names += fmt::format("{}{}", names.empty() ? "" : ", ", h.value());
+    verdict.failures.push_back(fmt::format(
+        "{} hex(es) of second order have a Jacobian that is not positive everywhere: hex {}{}",
+        q.num_not_positive, names, q.num_not_positive > q.broken.size() ? " ..." : ""));
+  }
+  if (q.num_undecided > 0)
+    verdict.warnings.push_back(
+        fmt::format("{} hex(es) of second order could not be proven to have a positive Jacobian",
+                    q.num_undecided));
+}
+
 /// What needs no surface.
 Verdict judge_mesh(const HexMesh& mesh, const Context& context) {
   require_sound_arrays(mesh);
@@ -45,6 +61,10 @@ Verdict judge_mesh(const HexMesh& mesh, const Context& context) {
   context.progress("check", 0.3);
   verdict.quality = summarize_quality(mesh);
   add_quality_findings(verdict);
+  if (mesh.mid_nodes) {
+    verdict.second_order = summarize_second_order(mesh);
+    add_second_order_findings(verdict);
+  }
   return verdict;
 }
 
@@ -83,7 +103,9 @@ void compare_volume(Verdict& verdict, const Target& target, const JudgeOptions& 
       !is_oriented_cycle(surface))
     return;
   const double volume = enclosed_volume(surface);
-  if (volume > 0) verdict.volume_error = verdict.quality.total_volume / volume - 1;
+  const double own =
+      verdict.second_order ? verdict.second_order->total_volume : verdict.quality.total_volume;
+  if (volume > 0) verdict.volume_error = own / volume - 1;
 }
 
 /// Other units or another origin are the likely cause.
@@ -135,6 +157,7 @@ Verdict judge(const HexMesh& mesh, const TriMesh& surface, const TargetOptions& 
 
 void Verdict::to_world(const Similarity& frame) {
   quality.to_world(frame);
+  if (second_order) second_order->to_world(frame);
   if (distance) distance->to_world(frame);
   if (features) features->to_world(frame);
 }

@@ -224,7 +224,54 @@ std::vector<std::array<VertId, 4>> collect_judged_quads(const HexMesh& mesh, Jud
   return quads;
 }
 
+namespace {
+
+/// A quad of second order is divided until what a facet may be off is this share of the box.
+constexpr double kFacetError = 1e-5;
+constexpr double kMostDivisions = 8;
+
+/// How far the sides of a quad are off their chords.
+double sag_of(const QuadraticQuad& quad) {
+  double sag = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    sag = std::max(sag, distance(quad[4 + k], 0.5 * quad[k] + 0.5 * quad[(k + 1) % 4]));
+  return sag;
+}
+
+void append_facets(const QuadraticQuad& quad, int num_divisions, TriMesh& triangles) {
+  const VertId first(triangles.num_verts());
+  const int row = num_divisions + 1;
+  for (int j = 0; j < row; ++j)
+    for (int i = 0; i < row; ++i)
+      triangles.positions.push_back(
+          point_on(quad, double(i) / num_divisions, double(j) / num_divisions));
+  for (int j = 0; j < num_divisions; ++j)
+    for (int i = 0; i < num_divisions; ++i) {
+      const int at = first.value() + j * row + i;
+      const VertId a(at), b(at + 1), c(at + row + 1), d(at + row);
+      triangles.tris.push_back({a, b, c});
+      triangles.tris.push_back({a, c, d});
+    }
+}
+
+/// The same of a mesh of second order: curved quads as many small facets.
+TriMesh facet_curved_quads(const HexMesh& mesh, const std::vector<std::array<VertId, 4>>& quads) {
+  TriMesh triangles;
+  triangles.positions = mesh.positions;
+  const EdgeTable edges(mesh);
+  const double error = kFacetError * bounding_box(mesh).diagonal();
+  for (const auto& verts : quads) {
+    const QuadraticQuad quad = quadratic_quad(mesh, edges, verts);
+    const double divisions = std::ceil(std::sqrt(sag_of(quad) / error));
+    append_facets(quad, static_cast<int>(std::clamp(divisions, 2.0, kMostDivisions)), triangles);
+  }
+  return triangles;
+}
+
+}  // namespace
+
 TriMesh triangulate_quads(const HexMesh& mesh, const std::vector<std::array<VertId, 4>>& quads) {
+  if (mesh.mid_nodes) return facet_curved_quads(mesh, quads);
   TriMesh triangles;
   triangles.positions = mesh.positions;
   triangles.positions.reserve(mesh.num_verts() + quads.size());

@@ -29,6 +29,7 @@ Json to_json(const TopologyReport& t) {
           {"nonmanifold_vertices", t.num_nonmanifold_verts},
           {"singular_vertices", t.num_singular_verts},
           {"hanging_vertices", t.hanging_verts.size()},
+          {"contact_vertices", t.num_contact_verts},
           {"problems", t.problems}};
 }
 
@@ -43,6 +44,18 @@ Json to_json(const QualitySummary& q) {
                {"histogram", {{"from", -1.0}, {"to", 1.0}, {"counts", q.histogram}}}};
   if (q.worst_hex.is_valid()) json["worst_hex"] = q.worst_hex.value();
   return json;
+}
+
+Json to_json(const SecondOrderQuality& q) {
+  Json broken = Json::array();
+  for (HexId h : q.broken) broken.push_back(h.value());
+  return {{"curved_hexes", q.num_curved},
+          {"not_positive", q.num_not_positive},
+          {"not_positive_hexes", broken},
+          {"undecided", q.num_undecided},
+          {"min_jacobian_share", q.min_jacobian_share},
+          {"worst_hex", q.worst_hex.is_valid() ? Json(q.worst_hex.value()) : Json(nullptr)},
+          {"volume", q.total_volume}};
 }
 
 Json to_json(const SurfaceDistance& d) {
@@ -121,6 +134,7 @@ std::string verdict_to_json(const Verdict& verdict, int indent) {
                {"warnings", verdict.warnings},
                {"topology", to_json(verdict.topology)},
                {"quality", to_json(verdict.quality)}};
+  if (verdict.second_order) json["second_order"] = to_json(*verdict.second_order);
   if (verdict.volume_error) json["volume_error"] = *verdict.volume_error;
   if (verdict.distance) json["distance"] = to_json(*verdict.distance);
   if (verdict.features) json["features"] = to_json(*verdict.features);

@@ -28,6 +28,9 @@ std::string topology_lines(const Verdict& verdict) {
       fmt::format("{}, {}", counted(t.num_components, "component", "components"),
                   counted(t.num_boundary_components, "boundary surface", "boundary surfaces"));
   if (t.is_valid()) shape += fmt::format(", genus {}; conforming and manifold", t.genus());
+  if (t.num_contact_verts > 0)
+    shape += fmt::format("; {} on faces of another body",
+                         counted(t.num_contact_verts, "vertex", "vertices"));
   text += line("topology", shape);
   if (verdict.has_other_topology && t.is_valid())
     text +=
@@ -52,8 +55,20 @@ std::string quality_lines(const QualitySummary& q) {
   return text;
 }
 
+std::string second_order_lines(const SecondOrderQuality& q) {
+  const std::size_t num_unproven = q.num_not_positive + q.num_undecided;
+  return line("order 2", fmt::format("{}; least share of the mean Jacobian {:.4f} (hex {})",
+                                     counted(q.num_curved, "curved hex", "curved hexes"),
+                                     q.min_jacobian_share, q.worst_hex.value())) +
+         line("", num_unproven == 0
+                      ? "the Jacobian is proven positive in every hex of second order"
+                      : fmt::format("{} proven not positive, {} undecided",
+                                    grouped(q.num_not_positive), grouped(q.num_undecided)));
+}
+
 std::string volume_line(const Verdict& v) {
-  std::string text = fmt::format("{:.6g}", v.quality.total_volume);
+  std::string text =
+      fmt::format("{:.6g}", v.second_order ? v.second_order->total_volume : v.quality.total_volume);
   if (v.volume_error)
     text += fmt::format(", {:.3f} % {} than the surface's", 100 * std::abs(*v.volume_error),
                         *v.volume_error > 0 ? "more" : "less");
@@ -114,6 +129,8 @@ std::string verdict_to_text(const Verdict& verdict) {
 
 std::string figures_to_text(const Verdict& verdict) {
   std::string text = topology_lines(verdict) + quality_lines(verdict.quality);
+  if (verdict.quality.num_hexes > 0 && verdict.second_order)
+    text += second_order_lines(*verdict.second_order);
   if (verdict.quality.num_hexes > 0) text += volume_line(verdict);
   if (verdict.distance) text += distance_lines(*verdict.distance);
   if (verdict.features) text += feature_lines(*verdict.features);

@@ -12,6 +12,7 @@
 #include "render/ambient_occlusion.h"
 #include "render/camera.h"
 #include "render/creases.h"
+#include "render/curved_faces.h"
 #include "render/face_patches.h"
 #include "render/legend.h"
 #include "render/rasterizer.h"
@@ -53,6 +54,12 @@ std::vector<Vec3> visible_positions(const HexMesh& mesh, const std::vector<Visib
   std::vector<Vec3> points;
   for (VertId v : mesh.positions.ids())
     if (is_visible[v]) points.push_back(mesh.positions[v]);
+  if (!mesh.mid_nodes) return points;
+  for (const VisibleFace& visible : faces) {
+    const QuadraticQuad quad =
+        quadratic_face(quadratic_hex(mesh, visible.face.hex), visible.face.lf);
+    points.insert(points.end(), quad.begin() + 4, quad.end());
+  }
   return points;
 }
 
@@ -61,20 +68,6 @@ Viewport place_viewport(const Image& image, int legend) {
   const double margin = 0.04 * std::min(image.width, image.height);
   const double right = legend > 0 ? legend + margin : margin;
   return {margin, margin, std::max(1.0, image.width - margin - right), image.height - 2 * margin};
-}
-
-// Light for a surface with this normal in the camera's frame: a key light from the upper left, a
-// weaker one from the right. It is fixed to the eye and not to the scene, so that no view of a mesh
-// is dark.
-float light(const Vec3& normal) {
-  const double key = std::max(0.0, dot(normal, normalized(Vec3{-0.45, 0.65, 0.65})));
-  const double fill = std::max(0.0, dot(normal, normalized(Vec3{0.7, 0.1, 0.7})));
-  return static_cast<float>(std::min(1.0, 0.62 + 0.30 * key + 0.2 * fill));
-}
-
-// Twice the area on the screen, negative when counter-clockwise as seen (y points down).
-double signed_area(const std::array<ScreenPoint, 4>& c) {
-  return (c[2].x - c[0].x) * (c[3].y - c[1].y) - (c[2].y - c[0].y) * (c[3].x - c[1].x);
 }
 
 // Fainter on the boundary: there the lines of many small quads would hide the shape.
@@ -88,21 +81,14 @@ float line_share(const std::array<ScreenPoint, 4>& c) {
   return static_cast<float>(std::clamp((perimeter / 4 - 1.5) / 6, 0.0, 1.0));
 }
 
-// A face is a back face when it runs clockwise on the screen: seen from inside its hex, through a
-// cut or because the hex is inverted. Its normal is turned to the eye, for light has no inside.
 ShadedQuad shade(const HexMesh& mesh, const VisibleFace& visible, const Camera& camera,
                  const Color& color) {
   const auto verts = face_verts(mesh, visible.face);
   std::array<Vec3, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[verts[k]];
   ShadedQuad quad;
-  for (std::size_t k = 0; k < 4; ++k) {
-    p[k] = mesh.positions[verts[k]];
-    quad.corners[k] = camera.project(p[k]);
-  }
-  quad.is_back = signed_area(quad.corners) > 0;
-  const Vec3 outward = normalized(cross(p[2] - p[0], p[3] - p[1]));
-  quad.normal = camera.to_view(quad.is_back ? -outward : outward);
-  quad.color = light(quad.normal) * color;
+  quad.base_color = color;
+  light_quad(p, camera, quad);
   quad.line_share = line_share_of(visible) * line_share(quad.corners);
   quad.bold_sides = visible.bold_sides;
   if (visible.is_focus) {
@@ -141,7 +127,7 @@ std::vector<ShadedQuad> shade_faces(const HexMesh& mesh, const std::vector<Visib
     quads[i].line_share = 0;
     quads[i].bold_sides = 0;
   });
-  return quads;
+  return mesh.mid_nodes ? divide_curved(mesh, faces, quads, camera) : quads;
 }
 
 // Letters grow with the picture.

@@ -109,6 +109,7 @@ class Band {
     if (quad.line_share <= 0 && quad.bold_sides == 0) return;
     const double x = position(column), y = first_row_ + position(row);
     for (std::size_t k = 0; k < 4; ++k) {
+      if ((quad.line_sides >> k & 1) == 0) continue;
       const ScreenLine side(quad.corners[k], quad.corners[(k + 1) % 4]);
       const bool is_bold = (quad.bold_sides >> k & 1) != 0;
       const double width = is_bold ? options_.bold_width : options_.line_width;

@@ -22,6 +22,8 @@ struct ShadedQuad {
   bool is_back = false;  ///< seen from inside its hex; loses against a front face at equal depth
   std::uint8_t bold_sides = 0;  ///< bits of sides (k to k + 1) drawn wider and fully
   Color line_color = kLineColor;
+  std::uint8_t line_sides = 0xf;  ///< bits of sides that are edges, and not the border of a part
+  Color base_color = {};          ///< without light
 };
 
 /// Colours with the depth and normal of what is seen at each pixel's middle.

@@ -4,6 +4,7 @@
 Usage: cli_test.py BINARY SOURCE_DIR [unittest arguments]. CTest runs each class as one case.
 """
 import json
+import math
 import os
 import re
 import signal
@@ -310,6 +311,72 @@ class Stages(CliTest):
         self.assertGreaterEqual(after, before)
 
 
+class SecondOrder(CliTest):
+    """A rod of 48 sides: its vertices and mid-nodes go to the surface."""
+
+    def setUp(self):
+        super().setUp()
+        self.rod = self.path / "rod.obj"
+        ring = [(math.cos(2 * math.pi * k / 48), math.sin(2 * math.pi * k / 48)) for k in range(48)]
+        text = "".join(f"v {x} {y} {z}\n" for z in (0, 2) for x, y in ring)
+        text += "".join(f"f {k + 1} {(k + 1) % 48 + 1} {(k + 1) % 48 + 49} {k + 49}\n" for k in range(48))
+        text += "f " + " ".join(str(k) for k in range(48, 0, -1)) + "\nf " + " ".join(str(k) for k in range(49, 97)) + "\n"
+        self.rod.write_text(text)
+        self.mesh = self.path / "rod.vtu"
+
+    def test_mid_nodes_are_on_the_surface_and_every_format_that_has_them_gives_them_back(self):
+        report = self.path / "rod.json"
+        self.run_binary("mesh", self.rod, "-o", self.mesh, "--order", "2", "--report", report)
+        curving = json.loads(report.read_text())["curving"]
+        self.assertGreater(curving["curved_edges"], 20)
+        self.assertEqual(curving["unmatched_edges"], 0)
+        expected = None
+        for name, nodes in (("rod.vtu", "20"), ("a.vtk", "27"), ("a.msh", "20"), ("b.msh", "27"), ("a.msh2", "27"), ("a.inp", "20")):
+            if name != "rod.vtu":
+                self.run_binary("convert", self.mesh, self.path / name, "--nodes", nodes)
+            verdict = json.loads(self.run_binary("check", self.path / name, "--json").stdout)
+            self.assertTrue(verdict["valid"], verdict["failures"])
+            found = verdict["second_order"]
+            self.assertEqual((found["not_positive"], found["undecided"]), (0, 0))
+            expected = expected or found
+            self.assertAlmostEqual(found["volume"], expected["volume"], places=9)
+            self.assertEqual(found["curved_hexes"], expected["curved_hexes"])
+        area = 24 * math.sin(2 * math.pi / 48)  # of the polygon; straight edges lose a percent
+        self.assertLess(abs(expected["volume"] / (2 * area) - 1), 5e-4)
+
+    def test_what_has_no_second_order_says_what_has(self):
+        for output in ("a.mesh", "a.su2", "a.k", "polyMesh"):
+            error = self.run_binary("mesh", self.rod, "-o", self.path / output, "--order", "2", expect=2).stderr
+            self.assertIn("no hexes of second order", error)
+            self.assertIn("Abaqus .inp", error)
+        error = self.run_binary("mesh", self.rod, "-o", self.path / "a.inp", "--order", "2", "--nodes", "27", expect=2).stderr
+        self.assertIn("no hexes of 27 nodes", error)
+        error = self.run_binary("mesh", self.rod, "-o", self.path / "a.inp", "--nodes", "20", expect=2).stderr
+        self.assertIn("add --order 2", error)
+        self.assertEqual(self.files(), ["cube.obj", "rod.obj"])
+
+    def test_a_node_that_folds_an_element_is_named_by_the_check(self):
+        self.run_binary("mesh", self.rod, "-o", self.mesh, *COARSE)
+        self.run_binary("convert", self.mesh, self.path / "a.inp", "--order", "2")
+        straight = json.loads(self.run_binary("check", self.path / "a.inp", "--json").stdout)
+        self.assertEqual(straight["second_order"]["curved_hexes"], 0)
+        text = (self.path / "a.inp").read_text()
+        nodes = text[text.index("*NODE"):text.index("*ELEMENT")].splitlines()[1:]
+        corner, middle = nodes[0].split(","), nodes[-1].split(",")
+        text = text.replace(nodes[-1], ",".join([middle[0], *corner[1:]]))
+        (self.path / "b.inp").write_text(text)
+        done = self.run_binary("check", self.path / "b.inp", expect=1)
+        self.assertRegex(done.stdout, r"of second order have a Jacobian that is not positive everywhere: hex \d+")
+
+    def test_fit_and_convert_change_the_order(self):
+        self.run_binary("mesh", self.rod, "-o", self.mesh, *COARSE, "--side", "both")
+        box = self.path / "box.vtu"
+        self.run_binary("fit", self.mesh, self.rod, "-o", box, "--order", "2", "--report", self.path / "fit.json")
+        self.assertGreater(json.loads((self.path / "fit.json").read_text())["curving"]["curved_edges"], 0)
+        self.run_binary("convert", box, self.path / "c.vtu", "--order", "1")
+        self.assertNotIn("second_order", json.loads(self.run_binary("check", self.path / "c.vtu", "--json").stdout))
+
+
 class Names(CliTest):
     def sets(self, mesh):
         data = json.loads(self.run_binary("check", mesh, "--json").stdout)
@@ -355,6 +422,48 @@ class Names(CliTest):
         self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", "--format", "nonsense", expect=2)
         done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *COARSE, "--patch", "no=plane:x>5")
         self.assertIn("no part of the surface", done.stderr)
+
+
+class Cad(CliTest):
+    PLATE = SOURCE / "data/cad/plate_hole.step"
+
+    def reads_cad(self):
+        done = subprocess.run([str(BINARY), "inspect", str(self.PLATE)], capture_output=True, text=True, timeout=60)
+        return "scripts/setup cad" not in done.stderr
+
+    def test_a_cad_file_is_meshed_or_the_message_says_how_to_get_the_reader(self):
+        if not self.reads_cad():
+            done = self.run_binary("mesh", self.PLATE, "-o", self.path / "a.inp", expect=3)
+            self.assertRegex(done.stderr, "plate_hole.step: .*scripts/setup cad")
+            self.assertEqual(self.files(), ["cube.obj"])
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        self.run_binary("mesh", self.PLATE, "-o", self.path / "a.inp", "--rounds", "0", "--patch", "top=plane:z=5",
+                        "--report", self.path / "a.json")
+        text = (self.path / "a.inp").read_text()
+        for name in ("ELSET=plate", "NAME=bore", "NAME=fixed", "NAME=top"):
+            self.assertIn(name, text)
+        self.assertEqual(json.loads((self.path / "a.json").read_text())["cad"]["named_faces"], 4)
+
+    def test_inspect_describes_faces(self):
+        if not self.reads_cad():
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        self.assertIn("bore: cylinder r=5 along z through (20, 10, 0)", self.run_binary("inspect", self.PLATE).stdout)
+        faces = json.loads(self.run_binary("inspect", self.PLATE, "--json").stdout)["cad"]["faces"]
+        self.assertEqual(len(faces), 7)
+
+    def test_bad_files_leave_nothing_and_say_why(self):
+        if not self.reads_cad():
+            self.skipTest("needs OpenCASCADE: run scripts/setup, then scripts/build")
+        cut = self.path / "cut.step"
+        cut.write_text(self.PLATE.read_text()[:5000])
+        for file, words in ((cut, "last line"), (SOURCE / "data/cad/open_shell.step", "do not close")):
+            done = self.run_binary("mesh", file, "-o", self.path / "a.inp", expect=3)
+            self.assertRegex(done.stderr, f"error: .*{file.name}: .*{words}")
+        self.assertEqual(self.files(), ["cube.obj", "cut.step"])
+
+    def test_rules_for_faces_need_a_cad_file(self):
+        done = self.run_binary("mesh", self.cube, "-o", self.path / "a.inp", "--patch", "bore=cylinder:r=5", expect=2)
+        self.assertIn("face of a CAD file", done.stderr)
 
 
 class Check(CliTest):

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/mesh/cut_hexes.h"
 
 #include "helpers.h"
 #include "io/sample_meshes.h"
@@ -70,6 +71,19 @@ TEST(HexMeshIo, MeditIsToleratedInAnyOrderWithCommentsAndStrangeSections) {
   EXPECT_EQ(mesh.region[HexId(0)], 42);
   EXPECT_EQ(mesh.labels.corners, std::vector<VertId>{VertId(8)});
   EXPECT_EQ(read_tet_mesh(path).num_tets(), 1u);
+}
+
+TEST(HexMeshIo, HexesAreCutWhereTetsAreAskedFor) {
+  const TempFolder folder;
+  const HexMesh mesh = test::box_hex_mesh(2, 1, 1);
+  for (const char* name : {"a.vtk", "a.mesh", "a.msh", "a.vtu"}) {
+    write_hex_mesh((folder / name), mesh);
+    EXPECT_EQ(read_tet_mesh((folder / name)).tets, cut_hexes(mesh).tets) << name;
+  }
+  EXPECT_THROW(read_tet_mesh(folder.write("b.mesh",
+                                          "MeshVersionFormatted 1\nDimension 3\n"
+                                          "Vertices 1\n0 0 0 0\nEnd\n")),
+               Error);
 }
 
 TEST(HexMeshIo, LegacyVtkTextVersions2And5GiveTheSame) {

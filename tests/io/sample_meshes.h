@@ -41,6 +41,16 @@ inline HexMesh named_box() {
   return mesh;
 }
 
+/// The named box with mid-nodes: no two edges have the same offset from their chord.
+inline HexMesh curved_box() {
+  HexMesh mesh = named_box();
+  mesh.mid_nodes = make_straight_mid_nodes(mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> offset(-0.05, 0.05);
+  for (Vec3& p : mesh.mid_nodes->edges) p += {offset(random), offset(random), offset(random)};
+  return mesh;
+}
+
 /// A grid over the given roots, split at random `depth` times.
 inline Grid random_grid(const GridFrame& frame, std::vector<LatticeCoord> roots, int depth,
                         unsigned seed) {

@@ -9,6 +9,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/quality/hex_quality.h"
 
 #include "io/sample_meshes.h"
 
@@ -67,6 +68,18 @@ int main(int argc, char** argv) {
         written_names[format][name.given] = name.written;
     }
 
+    const HexMesh curved = test::curved_box();
+    for (const std::string& format : hex_mesh_formats())
+      for (int nodes_per_hex : {20, 27}) {
+        options.format = format;
+        options.nodes_per_hex = nodes_per_hex;
+        try {
+          write_hex_mesh(folder / ("curved" + std::to_string(nodes_per_hex) + "." + format), curved,
+                         options);
+        } catch (const Error&) {  // a format without such hexes
+        }
+      }
+
     const Grid grid = test::random_grid({{1, 2, 3}, 0.5}, test::kRingRoots, 3, 7);
     write_grid(folder / "grid.htg", grid);
     write_grid(folder / "grid.vtu", grid);
@@ -74,6 +87,7 @@ int main(int argc, char** argv) {
     nlohmann::json samples;
     samples["written_names"] = written_names;
     samples["named"] = describe_sets(named);
+    samples["curved"]["volume"] = summarize_second_order(curved).total_volume;
     samples["hexes"] = mesh.num_hexes();
     samples["verts"] = mesh.num_verts();
     samples["quads"] = mesh.labels.quads.size();

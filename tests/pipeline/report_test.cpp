@@ -62,9 +62,14 @@ TEST(Report, StagesWriteTheirOwnParts) {
   DualReport dual;
   dual.num_hexes = 5;
   EXPECT_EQ(nlohmann::json::parse(dual_to_json(dual))["hexes"], 5);
-  FitReport fit;
-  fit.curves.push_back({CurveId(3), false, 0, "no path"});
+  FitStageResult fit;
+  fit.fit.report.curves.push_back({CurveId(3), false, 0, "no path"});
   EXPECT_EQ(nlohmann::json::parse(fit_to_json(fit))["dropped_curves"][0]["reason"], "no path");
+  fit.curving.emplace();
+  fit.curving->held_back = {{{1, 2, 3}, 0.5, 0.1}, {{4, 5, 6}, 0, 0.05}};
+  const auto curving = nlohmann::json::parse(fit_to_json(fit))["curving"];
+  EXPECT_EQ(curving["held_back_edges"], 2);
+  EXPECT_EQ(curving["worst_held_back"][0]["position"], nlohmann::json({1, 2, 3}));
 }
 
 }  // namespace

@@ -1,9 +1,14 @@
 #include "polycube/lattice.h"
 
+#include <array>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "hexwright/base/error.h"
 
+#include "polycube/charts.h"
 #include "polycube/tet_boundary.h"
 #include "polycube/tet_builders.h"
 #include "polycube/tet_locator.h"
@@ -59,6 +64,76 @@ TEST(Lattice, SnapsUnevenPlanesToIntegers) {
 
 TEST(Lattice, SmallerSpacingGivesMoreCubes) {
   EXPECT_EQ(fit_lattice(test::tet_cubes(kL, 2), 0.5).roots.size(), 24u);
+}
+
+std::size_t count_folded(const TetMesh& mesh) {
+  std::size_t count = 0;
+  for (TetId t : mesh.tets.ids()) count += !(tet_det(tet_corners(mesh, t)) > 0);
+  return count;
+}
+
+// Distances 1, 0.02 and pi have no common measure, and the step of 0.02 is thinner than what charts
+// that a deformation left apart may be from each other: none may be lost, and none refused.
+TEST(Lattice, MeetsPlanesOnNoCommonLattice) {
+  const auto uneven = [](Vec3 p) {
+    const auto stretch = [](double x, double second) { return x > 1 ? 1 + second * (x - 1) : x; };
+    return Vec3{stretch(p.x, 0.02), stretch(p.y, 3.14159265358979), p.z};
+  };
+  const TetMesh polycube = test::mapped(test::tet_cubes(kL, 2), uneven);
+  for (double spacing : {0.0, 0.2}) {
+    const Lattice lattice = fit_lattice(polycube, spacing);
+    EXPECT_EQ(lattice.charts.size(), 8u);
+    EXPECT_EQ(lattice.num_merged_charts, 0u);
+    EXPECT_EQ(count_folded(lattice.tets), 0u);
+    EXPECT_LT(lattice.max_deviation, 1e-12);
+    std::array<std::set<int>, 3> planes;
+    for (const Chart& chart : lattice.charts)
+      planes[static_cast<std::size_t>(chart.axis)].insert(chart.plane);
+    EXPECT_EQ(planes[0].size(), 3u);
+    EXPECT_EQ(planes[1].size(), 3u);
+    EXPECT_EQ(planes[2].size(), 2u);
+  }
+}
+
+// One boundary vertex lifted off its face, by a share of the extent.
+TetMesh with_bump(double share) {
+  TetMesh mesh = test::tet_cubes({{0, 0, 0}}, 4);
+  for (Vec3& p : mesh.positions)
+    if (distance(p, {0.5, 0.5, 1}) < 1e-9) p.z += share;
+  return mesh;
+}
+
+TEST(Lattice, SnapsWhatIsNearItsPlaneAndNamesTheFacetThatIsNot) {
+  EXPECT_EQ(fit_lattice(with_bump(0.05), 0).roots.size(), 1u);
+  try {
+    fit_lattice(with_bump(0.4), 0);
+    FAIL() << "a bump of 0.4 was accepted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::BadGeometry);
+    EXPECT_NE(std::string(e.what()).find("facet"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("vertices"), std::string::npos) << e.what();
+  }
+}
+
+Vec3 stretch_end(Vec3 p) { return {p.x > 2 ? 2 + 8 * (p.x - 2) : p.x, p.y, p.z}; }
+
+TEST(SuitScales, PutsCubesWhereTheObjectIsLong) {
+  const TetMesh cube = test::tet_cubes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 4);
+  const TetMesh object = test::mapped(cube, stretch_end);
+  const Faces faces = find_faces(cube, 0);
+  PolycubeOptions options;
+  options.max_stretch = 0.05;  // of 10.1
+  const auto candidates = suit_scales(faces.planes, object, cube, options);
+  ASSERT_GT(candidates.size(), 1u);
+  const AxisScale& x = candidates.front().scales[0];
+  EXPECT_NEAR(x.slope(2.5) / x.slope(1), 8, 1.5);
+  EXPECT_EQ(x(0), 0);
+  EXPECT_EQ(x(3), std::round(x(3)));
+  for (std::size_t i = 1; i < x.to.size(); ++i) EXPECT_GT(x.to[i], x.to[i - 1]);
+  // The last is even.
+  const AxisScale& even = candidates.back().scales[0];
+  EXPECT_NEAR(even.slope(2.5), even.slope(1), 1e-9);
+  EXPECT_LT(candidates.front().cost, 0.5 * candidates.back().cost);
 }
 
 TEST(Lattice, RefusesABoundaryThatIsNotAxisAligned) {

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "hexwright/base/parallel.h"
+#include "hexwright/mesh/cut_hexes.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/hex_topology.h"
 #include "hexwright/quality/surface_distance.h"
 
+#include "helpers.h"
 #include "polycube/tet_builders.h"
 
 namespace hexwright {
@@ -115,6 +117,54 @@ TEST(Polycube, RefusesMeshesOfOtherConnectivity) {
   }
   EXPECT_THROW(mesh_polycube(cube, test::tet_cubes(kL, 3), {}, {}), Error);
   EXPECT_THROW(mesh_polycube({}, {}, {}, {}), Error);
+}
+
+// A bar twisted hard between coarse tets: all are positive, but cells that reach over several of
+// them come out inverted.
+TEST(Polycube, UntanglesWhatMappingLeavesInverted) {
+  const TetMesh cube = test::tet_cubes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1);
+  const TetMesh object = test::mapped(cube, [](Vec3 p) {
+    const double c = std::cos(0.9 * p.x), s = std::sin(0.9 * p.x), y = p.y - 0.5, z = p.z - 0.5;
+    return Vec3{p.x, c * y - s * z, s * y + c * z};
+  });
+  PolycubeOptions options;
+  options.max_stretch = 0.06;
+  options.max_surface_error = 0.01;
+  const PolycubeResult result = mesh_polycube(object, cube, options, {});
+  EXPECT_EQ(result.report.num_nonpositive_polycube, 0u);
+  EXPECT_GT(result.report.num_inverted_mapped, 5u);
+  EXPECT_TRUE(result.report.folded.empty());
+  EXPECT_GT(summarize_quality(result.mesh).min_scaled_jacobian, 0.1);
+  EXPECT_GT(summarize_quality(result.mesh).avg_scaled_jacobian, 0.65);
+  EXPECT_LE(result.report.max_distance, 0.01);
+}
+
+// Both sides as hex meshes, as polycube methods deliver them.
+TEST(Polycube, HexMeshesAreSidesToo) {
+  const HexMesh box = test::box_hex_mesh(6, 2, 2);
+  HexMesh object = box;
+  for (Vec3& p : object.positions) p = bend(p * 0.4);
+  PolycubeOptions options;
+  options.max_stretch = 0.1;
+  const PolycubeResult result = mesh_polycube(cut_hexes(object), cut_hexes(box), options, {});
+  EXPECT_EQ(result.report.num_tets, kTetsPerHex * box.num_hexes());
+  EXPECT_EQ(result.report.num_nonpositive_object, 0u);
+  EXPECT_EQ(result.report.num_charts, 6u);
+  EXPECT_TRUE(result.verdict.is_valid());
+  EXPECT_LT(result.report.max_distance, 0.003);
+}
+
+TEST(Polycube, MeetsTheHexesWanted) {
+  const TetMesh cube = test::tet_cubes(kL, 4);
+  PolycubeOptions options;
+  for (std::size_t wanted : {1500, 6000}) {
+    options.target_hexes = wanted;
+    const auto result = mesh_polycube(test::mapped(cube, bend), cube, options, {});
+    const double share = static_cast<double>(result.mesh.num_hexes()) / static_cast<double>(wanted);
+    EXPECT_GT(share, 0.75);
+    EXPECT_LT(share, 1.05);
+    EXPECT_TRUE(result.report.folded.empty());
+  }
 }
 
 TEST(Polycube, CellBudgetStopsTheRefinement) {

@@ -166,6 +166,21 @@ TEST(HexTopology, AHangingVertexInsideAFaceAloneIsFound) {
             0u);
 }
 
+TEST(HexTopology, ContactOfBodiesWithRegionsOfTheirOwnIsNotHanging) {
+  const HexMesh large = test::box_hex_mesh(1, 1, 1);
+  const HexMesh small = transformed(test::box_hex_mesh(1, 1, 1), 0.3, {1, 0.35, 0.2});
+  HexMesh both = join(large, small);
+  both.region = IdVector<HexId, std::int32_t>(std::vector<std::int32_t>{0, 1});
+  const TopologyReport report = check_topology(both);
+  EXPECT_TRUE(report.is_valid());
+  EXPECT_EQ(report.num_contact_verts, 4u);
+  // With a vertex in common they are one body, which does not fit together.
+  for (VertId& v : both.hexes[HexId(1)])
+    if (v == VertId(8)) v = VertId(0);
+  EXPECT_EQ(check_topology(both).num_contact_verts, 0u);
+  EXPECT_FALSE(check_topology(both).hanging_verts.empty());
+}
+
 TEST(HexTopology, ACrackOfEqualQuadsIsNotHanging) {
   const HexMesh box = test::box_hex_mesh(2, 2, 2);
   EXPECT_EQ(check_topology(join(box, transformed(box, 1, {2, 0, 0}))).hanging_verts.size(), 0u);

@@ -240,5 +240,22 @@ TEST(VisibleFaces, AreTheBoundaryOfWhatTheCutLeaves) {
   EXPECT_EQ(std::count_if(faces.begin(), faces.end(), [](auto f) { return !f.is_boundary; }), 16);
 }
 
+/// A cube whose top bulges.
+TEST(Picture, DrawsEdgesOfSecondOrderCurved) {
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  mesh.mid_nodes = make_straight_mid_nodes(mesh);
+  for (std::size_t le : {4, 6})  // of the top, along x
+    mesh.mid_nodes->edges[mesh.mid_nodes->hex_to_edge[HexId(0)][le]].z += 0.4;
+  const Image curved = render_hex_mesh(mesh, front_view());
+  mesh.mid_nodes.reset();
+  const Image straight = render_hex_mesh(mesh, front_view());
+  const auto is_seen = [](Pixel p) { return !p.is_pale(); };
+  // The frame grows by the bulge: of 1 x 1.4 the shape takes 1 + 2/3 of 0.4.
+  EXPECT_NEAR(share_of_pixels(straight, is_seen), 0.92 * 0.92, 0.03);
+  EXPECT_NEAR(share_of_pixels(curved, is_seen), 0.92 * 0.92 * (1 + 0.8 / 3) / (1.4 * 1.4), 0.03);
+  EXPECT_TRUE(is_seen(pixel_at(curved, 0.5, 0.1)));
+  EXPECT_FALSE(is_seen(pixel_at(curved, 0.22, 0.1)));
+}
+
 }  // namespace
 }  // namespace hexwright

@@ -156,6 +156,31 @@ TEST(ViewPage, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(make_view_page(mesh, options), page);
 }
 
+/// The value of an array, or empty.
+std::string find_array(const std::string& page, const std::string& name) {
+  const std::string mark = "id=\"array-" + name + "\"";
+  const auto at = page.find(mark);
+  if (at == std::string::npos) return "";
+  const auto begin = page.find('>', at) + 1;
+  return page.substr(begin, page.find('<', begin) - begin);
+}
+
+TEST(ViewPage, HoldsTheNodesOfCurvedEdgesOnly) {
+  HexMesh mesh = box_hex_mesh(2, 1, 1);
+  mesh.mid_nodes = make_straight_mid_nodes(mesh);
+  EXPECT_EQ(find_array(make_view_page(mesh, {}), "hex_mids"), "");
+  // An edge that both hexes have.
+  const EdgeId edge = mesh.mid_nodes->hex_to_edge[HexId(0)][1];
+  ASSERT_EQ(mesh.mid_nodes->hex_to_edge[HexId(1)][3], edge);
+  mesh.mid_nodes->edges[edge].z -= 0.2;
+  const std::string page = make_view_page(mesh, {});
+  const std::string planes = inflate(from_base64(find_array(page, "hex_mids")), 4 * 24);
+  Numbers expected(24, 0);
+  expected[1] = expected[12 + 3] = 1;
+  EXPECT_EQ(planes, to_planes(to_deltas(expected, 4), 4));
+  EXPECT_NE(find_array(page, "mid_positions"), "");
+}
+
 TEST(ViewPage, NamesDoNotBecomeMarkup) {
   ViewOptions options;
   options.title = "</title></script><script>alert(1)</script>";

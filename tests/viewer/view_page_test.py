@@ -102,6 +102,21 @@ class PageTest(unittest.TestCase):
         self.assertEqual(viewer.hexes(), int(kept.sum()))
         self.assertEqual(viewer.faces(), mesh.num_faces(kept))
 
+    def difference(self, browser, *pictures):
+        """Share of pixels that differ visibly: letters may, a face may not."""
+        page = browser.new_page()
+        share = page.evaluate("""async sources => {
+            const [a, b] = await Promise.all(sources.map(async source => {
+                const image = new Image(); image.src = 'data:image/png;base64,' + source; await image.decode();
+                const canvas = Object.assign(document.createElement('canvas'), {width: image.width, height: image.height}), context = canvas.getContext('2d');
+                context.drawImage(image, 0, 0); return context.getImageData(0, 0, image.width, image.height); }));
+            if (a.width !== b.width || a.height !== b.height) return 1;
+            let count = 0;
+            for (let i = 0; i < a.data.length; i += 4) if (Math.max(...[0, 1, 2].map(k => Math.abs(a.data[i + k] - b.data[i + k]))) > 40) ++count;
+            return count / (a.width * a.height); }""", [base64.b64encode(p).decode() for p in pictures])
+        page.close()
+        return share
+
 
 def run(*arguments):
     subprocess.run([str(BINARY), *map(str, arguments), "--quiet"], check=True, timeout=300)
@@ -379,20 +394,31 @@ class Step(PageTest):
             else:
                 self.assertLess(self.difference(viewer.page.context.browser, picture, (SCREENS / f"{name}.png").read_bytes()), 0.01, name)
 
-    def difference(self, browser, *pictures):
-        """Share of pixels that differ visibly: letters may, a face may not."""
-        page = browser.new_page()
-        share = page.evaluate("""async sources => {
-            const [a, b] = await Promise.all(sources.map(async source => {
-                const image = new Image(); image.src = 'data:image/png;base64,' + source; await image.decode();
-                const canvas = Object.assign(document.createElement('canvas'), {width: image.width, height: image.height}), context = canvas.getContext('2d');
-                context.drawImage(image, 0, 0); return context.getImageData(0, 0, image.width, image.height); }));
-            if (a.width !== b.width || a.height !== b.height) return 1;
-            let count = 0;
-            for (let i = 0; i < a.data.length; i += 4) if (Math.max(...[0, 1, 2].map(k => Math.abs(a.data[i + k] - b.data[i + k]))) > 40) ++count;
-            return count / (a.width * a.height); }""", [base64.b64encode(p).decode() for p in pictures])
-        page.close()
-        return share
+
+class Curved(PageTest):
+    """One hex of second order, whose edges along z bulge."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        ends = [(k, (k + 1) % 4) for k in range(4)] + [(4 + k, 4 + (k + 1) % 4) for k in range(4)] + [(k, k + 4) for k in range(4)]
+        middles = [[(p + q) / 2 for p, q in zip(corners[a], corners[b])] for a, b in ends]
+        for (x, y, _), middle in zip(corners[:4], middles[8:]):
+            middle[0] += 0.4 if x else -0.4
+            middle[1] += 0.4 if y else -0.4
+        nodes = "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners + middles, 1))
+        (cls.folder / "barrel.inp").write_text("*NODE\n" + nodes + "*ELEMENT, TYPE=C3D20\n1, " + ", ".join(map(str, range(1, 16))) +
+                                               ",\n" + ", ".join(map(str, range(16, 21))) + "\n")
+        run("view", cls.folder / "barrel.inp", "-o", cls.folder / "barrel.html", "--no-open")
+
+    def test_edges_and_faces_are_drawn_curved(self):
+        viewer = self.open(self.folder / "barrel.html")
+        self.assertEqual((viewer.hexes(), viewer.faces()), (1, 6))
+        if WRITE_SCREENS:
+            (Path(WRITE_SCREENS) / "curved.png").write_bytes(viewer.screenshot())
+        else:
+            self.assertLess(self.difference(viewer.page.context.browser, viewer.screenshot(), (SCREENS / "curved.png").read_bytes()), 0.01)
 
 
 class Part(PageTest):

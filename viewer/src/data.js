@@ -1,4 +1,5 @@
 // Unpacks the page's arrays. Their formats: src/render/page/view_arrays.h.
+import {EDGES} from './topology.js';
 
 function bytesOfBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
@@ -102,9 +103,27 @@ export async function readMesh() {
     curves: readNumbers(await unpack('curves')), curveIds: readNumbers(await unpack('curve_ids')), corners: readNumbers(await unpack('corners')), fields: []};
   mesh.deepest = mesh.depth.reduce((most, d) => d < 255 && d > most ? d : most, 0);  // 255: no boundary leads there
   for (let i = 0; i < summary.fields.length; ++i) mesh.fields.push(await unpack(`field_${i}`));
+  const midBytes = await unpack('mid_positions');
+  if (midBytes) mesh.mids = {positions: readPositions(midBytes, frame), ofHex: readNumbers(await unpack('hex_mids'))};
   const surfaceBytes = await unpack('surface_positions');
   if (surfaceBytes) mesh.surface = {positions: readPositions(surfaceBytes, frame), tris: readNumbers(await unpack('surface_tris'))};
   return mesh;
+}
+
+/// The node of a curved edge, by its vertices in any order; null for a straight one.
+export function midNode(mesh, a, b) {
+  if (!mesh.mids) return null;
+  const numVerts = mesh.positions.length / 3, keyOf = (v, w) => v < w ? v * numVerts + w : w * numVerts + v;
+  if (!mesh.mids.ofEdge) {
+    mesh.mids.ofEdge = new Map();
+    mesh.mids.ofHex.forEach((mid, i) => {
+      if (!mid) return;
+      const base = 8 * Math.floor(i / 12), [k, l] = EDGES[i % 12];
+      mesh.mids.ofEdge.set(keyOf(mesh.hexes[base + k], mesh.hexes[base + l]), mid - 1);
+    });
+  }
+  const mid = mesh.mids.ofEdge.get(keyOf(a, b));
+  return mid === undefined ? null : Array.from(mesh.mids.positions.subarray(3 * mid, 3 * mid + 3));
 }
 
 /// Place in the lists of marked faces, or -1.

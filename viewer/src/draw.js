@@ -2,7 +2,7 @@
 // another choice of faces costs four bytes each, and the edges of quads are drawn by the fragment, without diagonals.
 import {BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, Points,
   RawShaderMaterial, RGBAFormat, RGBAIntegerFormat, Scene, UnsignedIntType, Vector2, WebGLRenderer} from 'three';
-import {FACES} from './topology.js';
+import {FACE_EDGES, FACES} from './topology.js';
 
 const WIDTH = 2048;  // of data textures
 
@@ -15,27 +15,57 @@ vec3 lit(vec3 color, vec3 normal) {
 const FACE_VERTEX = `precision highp float; precision highp int;
 uniform highp usampler2D hexes; uniform highp sampler2D verts; uniform mat4 modelViewMatrix, projectionMatrix;
 in vec3 position; in uint face; in vec4 color;
-out vec2 place; flat out vec3 shade; flat out vec3 normal;
+out vec2 place; flat out vec3 shade;
+#ifdef CURVED
+out vec3 normal;
+#else
+flat out vec3 normal;
+#endif
 const uint corners[24] = uint[24](${FACES.flat().map(v => `${v}u`).join(',')});
 ivec2 texel(uint i) { return ivec2(i % ${WIDTH}u, i / ${WIDTH}u); }
 vec3 corner(uvec4 low, uvec4 high, uint lf, uint k) {
   uint lv = corners[lf * 4u + k];
   return texelFetch(verts, texel(lv < 4u ? low[lv] : high[lv - 4u]), 0).xyz;
 }
+#ifdef CURVED
+uniform highp usampler2D hexMids; uniform highp sampler2D mids;
+const uint sides[24] = uint[24](${FACE_EDGES.flat().map(e => `${e}u`).join(',')});
+vec3 side(uint hex, uint lf, uint k, vec3 a, vec3 b) {
+  uint le = sides[lf * 4u + k], mid = texelFetch(hexMids, texel(3u * hex + le / 4u), 0)[le % 4u];
+  return mid == 0u ? (a + b) * .5 : texelFetch(mids, texel(mid - 1u), 0).xyz;
+}
+vec3 weights(float t) { return vec3((1. - t) * (1. - 2. * t), 4. * t * (1. - t), t * (2. * t - 1.)); }
+vec3 slopes(float t) { return vec3(4. * t - 3., 4. - 8. * t, 4. * t - 1.); }
+#endif
 void main() {
   uint hex = face >> 3u, lf = face & 7u;
   uvec4 low = texelFetch(hexes, texel(2u * hex), 0), high = texelFetch(hexes, texel(2u * hex + 1u), 0);
   vec3 a = corner(low, high, lf, 0u), b = corner(low, high, lf, 1u), c = corner(low, high, lf, 2u), d = corner(low, high, lf, 3u);
+#ifdef CURVED
+  vec3 ab = side(hex, lf, 0u, a, b), bc = side(hex, lf, 1u, b, c), cd = side(hex, lf, 2u, c, d), da = side(hex, lf, 3u, d, a);
+  vec3 middle = (ab + bc + cd + da) * .5 - (a + b + c + d) * .25;
+  place = position.xy;
+  mat3 u = mat3(a, ab, b), v = mat3(da, middle, bc), w = mat3(d, cd, c);
+  vec3 along = weights(place.x), up = weights(place.y), dAlong = slopes(place.x), dUp = slopes(place.y);
+  vec3 p = mat3(u * along, v * along, w * along) * up;
+  vec3 n = cross(mat3(u * dAlong, v * dAlong, w * dAlong) * up, mat3(u * along, v * along, w * along) * dUp);
+#else
   int k = int(position.x);
   vec3 p = k == 0 ? a : k == 1 ? b : k == 2 ? c : k == 3 ? d : (a + b + c + d) * .25;
   place = k == 4 ? vec2(.5) : vec2(k == 1 || k == 2 ? 1. : 0., k >= 2 ? 1. : 0.);
   vec3 n = cross(c - a, d - b);
+#endif
   normal = mat3(modelViewMatrix) * (n / max(length(n), 1e-30));
   shade = color.rgb;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(p, 1.);
 }`;
 const FACE_FRAGMENT = `precision highp float;
-uniform float edges; in vec2 place; flat in vec3 shade; flat in vec3 normal; out vec4 pixel;
+uniform float edges; in vec2 place; flat in vec3 shade; out vec4 pixel;
+#ifdef CURVED
+in vec3 normal;
+#else
+flat in vec3 normal;
+#endif
 ${LIGHT}
 void main() {
   vec3 color = lit(shade, gl_FrontFacing ? normal : -normal);
@@ -111,6 +141,14 @@ class Instances {
 }
 
 const QUAD = [0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0], QUAD_INDEX = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4];
+/// The same for faces of second order: a grid of places on them.
+const DIVISIONS = 6, GRID = [], GRID_INDEX = [];
+for (let j = 0; j <= DIVISIONS; ++j) for (let i = 0; i <= DIVISIONS; ++i) GRID.push(i / DIVISIONS, j / DIVISIONS, 0);
+for (let j = 0; j < DIVISIONS; ++j)
+  for (let i = 0, row = DIVISIONS + 1; i < DIVISIONS; ++i) {
+    const at = j * row + i;
+    GRID_INDEX.push(at, at + 1, at + row + 1, at, at + row + 1, at + row);
+  }
 const SEGMENT = [0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0], SEGMENT_INDEX = [0, 1, 2, 0, 2, 3];
 
 export class Drawing {
@@ -121,7 +159,7 @@ export class Drawing {
     this.scene = new Scene();
     this.resolution = new Vector2();
     this.faceUniforms = {hexes: {value: dataTexture(mesh.hexes, RGBAIntegerFormat, UnsignedIntType)}, verts: {value: dataTexture(withFourth(mesh.positions), RGBAFormat, FloatType)}, edges: {value: 1}};
-    this.faces = new Instances(QUAD, QUAD_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms), 0);
+    this.faces = mesh.mids ? this.makeCurvedFaces(mesh.mids) : new Instances(QUAD, QUAD_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms), 0);
     this.scene.add(this.faces.mesh);
     this.curves = this.makeLines(2.4, 4e-5, 2);
     this.irregular = this.makeLines(1.6, 3e-5, 1);
@@ -129,6 +167,12 @@ export class Drawing {
     this.plane = this.makeLines(1.6, 0, 4);
     this.makePoints(mesh);
     if (mesh.surface) this.makeSurface(mesh.surface);
+  }
+
+  makeCurvedFaces(mids) {
+    this.faceUniforms.hexMids = {value: dataTexture(mids.ofHex, RGBAIntegerFormat, UnsignedIntType)};
+    this.faceUniforms.mids = {value: dataTexture(withFourth(mids.positions), RGBAFormat, FloatType)};
+    return new Instances(GRID, GRID_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms, {defines: {CURVED: 1}}), 0);
   }
 
   makeLines(width, lift, order, more) {

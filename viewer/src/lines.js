@@ -1,33 +1,47 @@
 // Lines of a view: curves, irregular edges, the outline of a hex, the cutting plane in the box. Each gives {segments, colors}.
 import {categoryColor, valenceColor} from './colors.js';
+import {midNode} from './data.js';
 import {EDGES} from './topology.js';
 
-function makeLines(count, ends, colorOf) {
-  const segments = new Float32Array(6 * count), colors = new Uint8Array(4 * count);
+/// `pointsOf` gives two points or more of line i.
+function makeLines(count, pointsOf, colorOf) {
+  const segments = [], colors = [];
   for (let i = 0; i < count; ++i) {
-    const [a, b] = ends(i), color = colorOf(i);
-    for (let k = 0; k < 3; ++k) { segments[6 * i + k] = a[k]; segments[6 * i + 3 + k] = b[k]; }
-    colors.set([color[0], color[1], color[2], 255], 4 * i);
+    const points = pointsOf(i), color = colorOf(i);
+    for (let k = 1; k < points.length; ++k) {
+      segments.push(...points[k - 1], ...points[k]);
+      colors.push(color[0], color[1], color[2], 255);
+    }
   }
-  return {segments, colors};
+  return {segments: new Float32Array(segments), colors: new Uint8Array(colors)};
 }
 
 const pointOf = (mesh, v) => [mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]];
 
-export const curveLines = mesh => makeLines(mesh.curves ? mesh.curves.length / 2 : 0, i => [pointOf(mesh, mesh.curves[2 * i]), pointOf(mesh, mesh.curves[2 * i + 1])],
+/// The ends of an edge, and points between them where it is curved.
+function edgePoints(mesh, v, w) {
+  const a = pointOf(mesh, v), b = pointOf(mesh, w), mid = midNode(mesh, v, w), points = [a];
+  for (let i = 1; mid && i < CURVE_STEPS; ++i) {
+    const t = i / CURVE_STEPS;
+    points.push(a.map((x, k) => (1 - t) * (1 - 2 * t) * x + 4 * t * (1 - t) * mid[k] + t * (2 * t - 1) * b[k]));
+  }
+  return [...points, b];
+}
+const CURVE_STEPS = 8;
+
+export const curveLines = mesh => makeLines(mesh.curves ? mesh.curves.length / 2 : 0, i => edgePoints(mesh, mesh.curves[2 * i], mesh.curves[2 * i + 1]),
   i => mesh.curveIds[i] === 0 ? [30, 34, 42] : categoryColor(mesh.curveIds[i] - 1).map(x => x * 0.6));
 
 /// `groups` are those shown, as `valence` and whether on the boundary: "3", "boundary 1".
 export function irregularLines(mesh, edges, groups) {
   const shown = [];
   edges.valence.forEach((valence, i) => { if (groups.has(groupOf(valence, edges.onBoundary[i]))) shown.push(i); });
-  return makeLines(shown.length, i => [pointOf(mesh, edges.verts[2 * shown[i]]), pointOf(mesh, edges.verts[2 * shown[i] + 1])], i => valenceColor(edges.valence[shown[i]]));
+  return makeLines(shown.length, i => edgePoints(mesh, edges.verts[2 * shown[i]], edges.verts[2 * shown[i] + 1]), i => valenceColor(edges.valence[shown[i]]));
 }
 export const groupOf = (valence, onBoundary) => (onBoundary ? 'boundary ' : '') + valence;
 
 export function hexOutline(mesh, hex) {
-  const at = k => pointOf(mesh, mesh.hexes[8 * hex + k]);
-  return makeLines(12, i => [at(EDGES[i][0]), at(EDGES[i][1])], () => [225, 0, 170]);
+  return makeLines(12, i => edgePoints(mesh, mesh.hexes[8 * hex + EDGES[i][0]], mesh.hexes[8 * hex + EDGES[i][1]]), () => [225, 0, 170]);
 }
 
 /// Where the plane meets the box of the mesh.

@@ -3,6 +3,9 @@
 export const FACES = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 export const EDGES = [[0, 1], [1, 2], [3, 2], [0, 3], [4, 5], [5, 6], [7, 6], [4, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 
+/// Edges of each face: side k runs from its vertex k to k + 1.
+export const FACE_EDGES = FACES.map(f => f.map((v, k) => EDGES.findIndex(e => e.includes(v) && e.includes(f[(k + 1) % 4]))));
+
 /// The hex beyond each face, 6 per hex; -1 where there is none, or where more than two hexes share the face.
 export function findNeighbors(hexes, numVerts) {
   const n = hexes.length / 8, offset = new Uint32Array(numVerts + 1);

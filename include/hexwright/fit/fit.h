@@ -7,6 +7,7 @@
 
 #include "hexwright/base/context.h"
 #include "hexwright/fit/carve.h"
+#include "hexwright/geometry/surface_parts.h"
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/target/target.h"
 
@@ -34,7 +35,8 @@ struct FitOptions {
   /// lift_goal, boundary vertices leave the surface within it, as far as that raises the least
   /// scaled Jacobian.
   double tolerance = 0.005;
-  double lift_goal = 0.5;  ///< 0, or vertices on the surface: they stay where they belong
+  double lift_goal = 0.5;  ///< 0, or vertices on the surface: they stay where they belong ...
+  bool lifts_off_surface = false;  ///< ... unless this is wished: only the balance is given up then
 };
 
 /// What became of one feature curve.
@@ -82,6 +84,7 @@ struct FitResult {
   FitReport report;
   /// What lift_fit() goes on from; empty when there is nothing to lift.
   std::shared_ptr<const FitMemory> memory;
+  std::shared_ptr<const SurfaceParts> parts;  ///< of the labels; null for an empty mesh
 
   void to_world(const Similarity& frame);
 };

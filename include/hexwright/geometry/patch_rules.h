@@ -11,7 +11,7 @@ namespace hexwright {
 
 /// One condition; a point meets it where `signed_distance` is not positive.
 struct PatchCondition {
-  enum class Kind { HalfSpace, Plane, Box, Sphere, Cylinder, Normal, File };
+  enum class Kind { HalfSpace, Plane, Box, Sphere, Cylinder, Normal, File, CadFace };
   Kind kind = Kind::HalfSpace;
   Vec3 a;  ///< half-space, plane: normal; box: low corner; sphere: centre; cylinder: a point
            ///< of the axis; Normal: direction, unit
@@ -19,6 +19,11 @@ struct PatchCondition {
   double value = 0;  ///< half-space, plane: offset along `a`; radius; Normal: least cosine
   std::string path;  ///< File: to be read into `surface` by the caller
   TriMesh surface;   ///< File: the triangles that are meant
+  /// CadFace: "cylinder" and other kinds of surfaces, with `value` the radius where it is above 0;
+  /// or "face", with the name of one.
+  std::string face_kind, face_name;
+  /// CadFace: groups of the surface that are such faces; filled by the caller (find_faces).
+  std::vector<std::int32_t> groups;
 };
 
 /// All conditions must be met.
@@ -34,6 +39,8 @@ struct PatchRule {
 ///   cylinder:X,Y,Z,AX,AY,AZ,R               within R of the axis through a point
 ///   normal:NX,NY,NZ;20deg                   faces this way, within an angle (default 1 degree)
 ///   file:PATH                               lies on the surface of a file
+/// and of a CAD file's faces, by what they are:
+///   cylinder:r=5   sphere:r=5   torus:r=2   (the small radius)   kind:cone   face:NAME
 /// Throws Error{BadArgument} that says what is wrong and shows a right form.
 PatchRule parse_patch_rule(const std::string& text);
 

@@ -19,9 +19,10 @@ struct HexField {
   std::vector<double> values;
 };
 
-/// Hexes of any program's file; other elements are counted and left out, boundary quads, edges and
-/// corners become labels. Throws Error{CannotOpen} or Error{BadFile}.
+/// Hexes of any program's file, of first or second order; other elements are counted and left out,
+/// boundary quads, edges and corners become labels. Throws Error{CannotOpen} or Error{BadFile}.
 HexMesh read_hex_mesh(const std::filesystem::path& path);
+/// Tets of any program's file; a file of hexes alone is cut_hexes(). Throws as above.
 TetMesh read_tet_mesh(const std::filesystem::path& path);
 
 struct WriteHexOptions {
@@ -29,7 +30,9 @@ struct WriteHexOptions {
   bool write_sets = false;  ///< VTU, VTK: also quads, edges and corners as cells (they are always
                             ///< in the field data)
   bool names_by_place = false;  ///< patches without a name get one by name_by_place()
-  std::string format;           ///< one of hex_mesh_formats(), or empty: by the name's extension
+  /// Of a mesh with mid-nodes: 20, 27, 8 to leave them out, 0 for what is usual in the format.
+  int nodes_per_hex = 0;
+  std::string format;  ///< one of hex_mesh_formats(), or empty: by the name's extension
 };
 
 struct WriteHexResult {
@@ -46,7 +49,8 @@ const std::vector<std::string>& hex_mesh_extensions();
 /// What WriteHexOptions::format may be: "vtu", "gmsh2", "openfoam" ...
 const std::vector<std::string>& hex_mesh_formats();
 /// Throws Error{BadArgument}, which lists what there is, when write_hex_mesh would not know the
-/// format.
-void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format);
+/// format, or when that has no hexes of this order or, for order 2, with so many nodes (0: any).
+void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format,
+                           int order = 1, int nodes_per_hex = 0);
 
 }  // namespace hexwright

@@ -10,6 +10,7 @@
 #include "hexwright/base/vec3.h"
 #include "hexwright/mesh/element_ids.h"
 #include "hexwright/mesh/hex_numbering.h"
+#include "hexwright/mesh/mid_nodes.h"
 
 namespace hexwright {
 
@@ -46,6 +47,8 @@ struct HexMesh {
   BoundaryLabels labels;
   /// Names of regions by tag, "" for one without; tags that are negative or beyond have none.
   std::vector<std::string> region_names;
+  /// Present in a mesh of second order. Stages that move vertices or change hexes drop them.
+  std::optional<MidNodes> mid_nodes;
 
   std::size_t num_verts() const { return positions.size(); }
   std::size_t num_hexes() const { return hexes.size(); }

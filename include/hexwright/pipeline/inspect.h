@@ -1,10 +1,12 @@
 // What a surface is, before anyone meshes it, and what meshing would make of it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
+#include "hexwright/cad/cad_surface.h"
 #include "hexwright/pipeline/mesh_surface.h"
 
 namespace hexwright {
@@ -41,7 +43,8 @@ struct SurfaceInspection {
   double sharp_length = 0;           ///< of the feature curves that sizing would see
   std::size_t num_sharp_curves = 0, num_corners = 0;
   std::vector<NamedShare> names;
-  std::string units_guess;  ///< a sentence; empty when the size tells nothing
+  std::optional<CadSummary> cad;  ///< of a CAD file; filled by the caller
+  std::string units_guess;        ///< a sentence; empty when the size tells nothing
   /// What `mesh` would say of its preparation: what is as it should be, and what may not be meant.
   std::vector<std::string> notes, warnings;
   /// Why `mesh` would refuse; empty when it would not. The figures of the object are 0 then.

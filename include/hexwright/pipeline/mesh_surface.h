@@ -4,16 +4,22 @@
 // refines where the fit missed).
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hexwright/base/context.h"
 #include "hexwright/base/stage_record.h"
+#include "hexwright/cad/cad_surface.h"
+#include "hexwright/curving/curve_mesh.h"
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/fit/fit.h"
+#include "hexwright/geometry/exact_shape.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/even_levels.h"
 #include "hexwright/grid/sizing.h"
+#include "hexwright/layers/layers.h"
 #include "hexwright/pipeline/size_wishes.h"
 #include "hexwright/quality/edge_lengths.h"
 #include "hexwright/quality/judge.h"
@@ -31,7 +37,19 @@ struct MeshOptions {
   SizeWishes sizes;
   CompleteOptions complete;
   EvenOptions even;  ///< with Sizing::Deviation; off with the paper's
-  FitOptions fit;  ///< its tolerance is the sizing's (plan.h)
+  FitOptions fit;    ///< its tolerance is the sizing's (plan.h)
+  /// Of the elements: 2 gives edges nodes on the surface (see curving/curve_mesh.h), and puts the
+  /// vertices of curved patches there.
+  int order = 1;
+
+  /// Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by
+  /// itself, with vertices of its own: the gap stays. Negative: twice the tolerance; 0: never.
+  double gap = -1;
+  CadSurfaceOptions cad;  ///< of CAD files: see mesh_cad()
+  /// What the surface's triangles stand for, in its coordinates, where it is known: the mesh's
+  /// boundary vertices are put onto it in the end. May be null.
+  std::shared_ptr<const ExactShape> exact;
+  LayersOptions layers;  ///< along walls, in the mesh of the best round
 
   int max_rounds = 6;              ///< refine where the fit missed; 0 = a single pass
   double refine_threshold = 0.85;  ///< leaves farther off than this share of the tolerance split
@@ -73,6 +91,16 @@ struct RoundRecord {
   double seconds = 0;
 };
 
+/// How the boundary vertices came onto the exact shape.
+struct ExactReport {
+  std::size_t num_verts = 0;  ///< on the boundary
+  std::size_t num_exact = 0;  ///< on the exact shape in the end
+  std::size_t num_short = 0;  ///< stopped on the way there, for the hexes around
+  /// Farthest from where it belongs, of those two, before and after; shares of the diagonal. The
+  /// rest of the vertices has no place on the exact shape within a third of an edge.
+  double max_before = 0, max_after = 0;
+};
+
 struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
@@ -80,14 +108,22 @@ struct MeshResult {
   /// How the part was turned to lie along the lattice (see Placement): the rows are the axes, in
   /// the world, along which the cells of `grid` and `sizing.grid` stand on their frame's origin.
   Rotation pose;
+  /// Per hex: the depth of the grid's cell that its centre lies in; 0 outside of the grid.
+  IdVector<HexId, std::int8_t> levels;
   Grid grid;            ///< the completed grid of the best round
   SizingResult sizing;  ///< the a-priori grid
   CompleteReport complete;
   DualReport dual;
   FitReport fit;
+  std::optional<CurvingReport> curving;  ///< of a mesh of second order
+  std::optional<ExactReport> exact;      ///< with MeshOptions::exact
+  LayersReport layers;
+  /// Per hex: the number of its wall layer, counted from the wall, 0 = in none; empty when none
+  /// were asked for.
+  IdVector<HexId, std::int32_t> layer;
   EdgeLengths edges;
   double size_asked = 0;  ///< the largest edge that was asked for everywhere; 0 = none was
-  double tolerance = 0;  ///< distance goal, share of the diagonal: as asked, or as sizes allow
+  double tolerance = 0;   ///< distance goal, share of the diagonal: as asked, or as sizes allow
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

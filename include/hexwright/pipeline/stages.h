@@ -19,7 +19,19 @@ SizingResult size_surface(const TriMesh& surface, const MeshOptions& options,
 struct FitStageOptions {
   TargetOptions target;
   FitOptions fit;
+  int order = 1;  ///< as MeshOptions::order
 };
+
+/// A fitted mesh, of second order when that is asked for.
+struct FitStageResult {
+  FitResult fit;
+  std::optional<CurvingReport> curving;
+  void to_world(const Similarity& frame);
+};
+
+/// fit(), and curve_mesh() on what it made. In the target's coordinates.
+FitStageResult run_fit_stage(const HexMesh& background, const Target& target,
+                             const FitStageOptions& options, const Context& context);
 
 struct DualStageOptions {
   std::optional<DualMode> mode;  ///< absent: blocks when the grid is paired, else sheets

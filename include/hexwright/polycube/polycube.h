@@ -19,10 +19,16 @@
 namespace hexwright {
 
 struct PolycubeOptions {
-  /// Edge of a root cube in polycube units; 0 derives it from the closest two planes.
+  /// Edge of a root cube in polycube units, the same everywhere; 0 suits the lattice to the map:
+  /// cubes are as large as the criteria below allow, up to the distance of the closest two planes,
+  /// and denser where the object is long along an axis. Levels count from cubes of that distance.
   double spacing = 0;
-  /// Split while two object points of a cell are farther apart than this share of the diagonal.
+  /// Split while a cell, mapped, is longer along an axis than this share of the diagonal, or two of
+  /// the object's vertices in it are farther apart.
   double max_stretch = 1.0 / 50;
+  /// Hexes wanted, about: max_stretch is then found from this, starting at its value, and the
+  /// surface's distance is not asked for. 0 = off.
+  std::size_t target_hexes = 0;
   /// Distance between the mesh and the object's surface, both ways, as a share of the diagonal:
   /// cells are split where it would be exceeded, and again where a finished mesh exceeds it. 0 =
   /// off.
@@ -54,15 +60,20 @@ struct PolycubeReport {
   std::size_t num_nonpositive_left = 0;  ///< in the polycube, after its map was repaired
   std::size_t num_charts = 0, num_unaligned_facets = 0;
   double max_plane_deviation =
-      0;  ///< of a boundary vertex from its chart's plane, share of the spacing
-  double spacing = 0;
+      0;               ///< of a boundary vertex from its chart's plane, share of the spacing
+  double spacing = 0;  ///< mean edge of a root cube, polycube units
   std::size_t num_roots = 0, num_sampled_cells = 0, num_cells = 0;
   std::size_t num_bridged =
       0;  ///< vertices located outside every positive tet, taken to the nearest
   std::size_t num_inverted_mapped = 0;  ///< hexes not positive right after mapping back
-  int num_rounds = 0;                   ///< meshes made; the best of them is the result
-  double max_distance = 0;              ///< two-way, share of the diagonal; 0 when not measured
-  std::vector<FoldedHex> folded;        ///< hexes of the result that are not positive
+  std::size_t num_off_edges = 0;  ///< vertices let off the polycube's edges so that no hex inverts
+  std::size_t num_off_surface = 0;  ///< boundary vertices left off the surface for that by more
+                                    ///< than a third of max_surface_error
+  double max_off_surface = 0;       ///< of them, share of the diagonal
+  Vec3 farthest_off;                ///< the farthest of them
+  int num_rounds = 0;               ///< meshes made; the best of them is the result
+  double max_distance = 0;          ///< two-way, share of the diagonal; 0 when not measured
+  std::vector<FoldedHex> folded;    ///< hexes of the result that are not positive
   std::vector<std::string> warnings;
 
   void to_world(const Similarity& frame);
@@ -81,7 +92,7 @@ struct PolycubeResult {
 };
 
 /// Errors: BadGeometry when the connectivities differ (names the tet), when the polycube's boundary
-/// is not axis-aligned (names the facet) or encloses no lattice cube (asks for a smaller spacing);
+/// is not axis-aligned or a facet is far off its plane (names the facet);
 /// OutOfResources past max_cells.
 PolycubeResult mesh_polycube(const TetMesh& object, const TetMesh& polycube,
                              const PolycubeOptions& options, const Context& context);

@@ -21,6 +21,8 @@ struct TopologyReport {
   /// Vertices lying inside another hex's edge or face: in non-conforming grids, and where the
   /// boundary touches itself. Sorted.
   std::vector<VertId> hanging_verts;
+  /// Vertices that lie so in a hex of another body: no vertex in common, and another region.
+  std::size_t num_contact_verts = 0;
   std::size_t num_components = 0;  ///< of hexes, connected across faces
   std::size_t num_boundary_components = 0;
   long boundary_euler_characteristic = 0;

@@ -69,8 +69,9 @@ FeatureRecovery measure_features(const HexMesh& mesh, const SurfaceTree& surface
 
 struct Verdict {
   TopologyReport topology;
-  QualitySummary quality;
-  std::optional<SurfaceDistance> distance;  ///< with a surface only
+  QualitySummary quality;                          ///< by the corners
+  std::optional<SecondOrderQuality> second_order;  ///< of a mesh with mid-nodes
+  std::optional<SurfaceDistance> distance;         ///< with a surface only
   std::optional<FeatureRecovery> features;
   /// By how much of the volume within the surface the mesh has more, or less when negative: where
   /// the surface is closed, manifold and oriented, and the mesh's whole boundary stands for it.

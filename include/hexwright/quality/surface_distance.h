@@ -50,8 +50,8 @@ struct SurfaceDistance {
 SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface,
                                  const DistanceOptions& options);
 
-/// The boundary of a hex mesh as triangles (four per quad, about its centre); vertices of the mesh
-/// come first.
+/// The boundary of a hex mesh as triangles (four per quad, about its centre; more for curved quads
+/// of second order); vertices of the mesh come first.
 TriMesh boundary_triangles(const HexMesh& mesh);
 TriMesh triangulate_quads(const HexMesh& mesh, const std::vector<std::array<VertId, 4>>& quads);
 

@@ -193,6 +193,9 @@ class Judge {
         return norm(center - c.a) - c.value <= tolerance;
       case Kind::Cylinder:
         return axis_distance(c, center) <= tolerance;
+      case Kind::CadFace:
+        return !mesh_.group.empty() &&
+               std::ranges::find(c.groups, mesh_.group[t]) != c.groups.end();
       case Kind::Normal:
         return dot(normalized(cross(p[1] - p[0], p[2] - p[0])), c.a) >= c.value;
       default:
@@ -291,17 +294,43 @@ PatchCondition parse_box(const std::string& text, const std::string& rule) {
   return c;
 }
 
+/// "r=5" of a kind of surface, or "cone" of kind itself; absent when the text is neither.
+std::optional<PatchCondition> parse_cad_face(const std::string& kind, const std::string& value,
+                                             const std::string& rule) {
+  PatchCondition c;
+  c.kind = Kind::CadFace;
+  c.face_kind = kind;
+  if (kind == "face") {
+    if (value.empty()) refuse(rule, "names no face");
+    c.face_name = value;
+    return c;
+  }
+  if (kind == "kind") {
+    c.face_kind = value;
+    for (const char* known : {"plane", "cylinder", "cone", "sphere", "torus", "spline"})
+      if (value == known) return c;
+    refuse(rule, "asks for no kind of surface: plane, cylinder, cone, sphere, torus or spline");
+  }
+  const bool is_round = kind == "cylinder" || kind == "sphere" || kind == "torus";
+  if (!is_round || !value.starts_with("r=")) return {};
+  const auto radius = parse_numbers(value.substr(2), 1);
+  if (!radius || !((*radius)[0] > 0)) refuse(rule, "needs a radius above 0");
+  c.value = (*radius)[0];
+  return c;
+}
+
 PatchCondition parse_condition(const std::string& text, const std::string& rule) {
   const auto colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   const std::string value = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (auto face = parse_cad_face(kind, value, rule)) return *face;
   if (kind == "plane") return parse_plane(value, rule);
   if (kind == "normal") return parse_normal(value, rule);
   if (kind == "box") return parse_box(value, rule);
   if (kind == "sphere") return parse_round(Kind::Sphere, value, rule);
   if (kind == "cylinder") return parse_round(Kind::Cylinder, value, rule);
   if (kind != "file" || value.empty())
-    refuse(rule, "is of no known kind: plane, box, sphere, cylinder, normal or file");
+    refuse(rule, "is of no known kind: plane, box, sphere, cylinder, normal, file, face or kind");
   PatchCondition c;
   c.kind = Kind::File;
   c.path = value;

@@ -9,10 +9,24 @@
 namespace hexwright {
 namespace {
 
-template <class Mesh, class Map>
-Mesh mapped(Mesh mesh, Map&& map) {
-  auto& positions = mesh.positions.raw();
+template <class Map>
+void map_all(std::vector<Vec3>& positions, Map&& map) {
   parallel_for(positions.size(), [&](std::size_t i) { positions[i] = map(positions[i]); });
+}
+
+template <class Map>
+TriMesh mapped(TriMesh mesh, Map&& map) {
+  map_all(mesh.positions.raw(), map);
+  return mesh;
+}
+
+template <class Map>
+HexMesh mapped(HexMesh mesh, Map&& map) {
+  map_all(mesh.positions.raw(), map);
+  if (!mesh.mid_nodes) return mesh;
+  map_all(mesh.mid_nodes->edges.raw(), map);
+  for (auto& inner : mesh.mid_nodes->inner)
+    for (Vec3& p : inner) p = map(p);
   return mesh;
 }
 

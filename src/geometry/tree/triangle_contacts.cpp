@@ -68,12 +68,17 @@ double vert_distance_sq(const Corners& a, const Corners& b) {
   return least;
 }
 
-/// Walks the boxes of a hierarchy that come near that of one triangle.
-void collect_near(const TriangleBvh& bvh, const std::vector<Box3>& boxes, TriId a, double gap,
-                  FunctionRef<void(TriId)> visit) {
+std::vector<Box3> boxes_of(const TriMesh& surface) {
+  std::vector<Box3> boxes(surface.num_tris());
+  for (TriId t : surface.tris.ids()) boxes[t.index()] = box_of(surface.corners(t));
+  return boxes;
+}
+
+/// Walks the triangles of a hierarchy whose boxes come near another one.
+void collect_near(const TriangleBvh& bvh, const std::vector<Box3>& boxes, const Box3& box,
+                  double gap, FunctionRef<void(TriId)> visit) {
   // The nodes' boxes are rounded outwards in their frame; the query's is widened by as much.
   constexpr double kRounding = 1e-6;
-  const Box3& box = boxes[a.index()];
   float lo[3], hi[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double c = bvh.frame.center[axis], s = bvh.frame.inverse_scale;
@@ -88,7 +93,7 @@ void collect_near(const TriangleBvh& bvh, const std::vector<Box3>& boxes, TriId 
       const auto leaf = static_cast<std::uint32_t>(~child);
       for (std::uint32_t i = 0; i < (leaf & 7); ++i) {
         const TriId b = bvh.slot_to_tri[leaf / 8 + i];
-        if (a < b && !are_apart(box, boxes[b.index()], gap)) visit(b);
+        if (!are_apart(box, boxes[b.index()], gap)) visit(b);
       }
       continue;
     }
@@ -123,12 +128,38 @@ bool are_within(const Corners& a, const Corners& b, double gap) {
   return find_crossing(a, b, 0).has_value();
 }
 
+struct NearSurface::Boxes {
+  TriangleBvh bvh;
+  std::vector<Box3> of_tris;
+};
+
+NearSurface::NearSurface(const TriMesh& surface)
+    : surface_(surface),
+      box_(bounding_box(surface)),
+      boxes_(new Boxes{build_triangle_bvh(surface), boxes_of(surface)}) {}
+
+NearSurface::~NearSurface() = default;
+
+bool NearSurface::is_within(const TriMesh& other, double gap) const {
+  if (boxes_->bvh.nodes.empty() || are_apart(box_, bounding_box(other), gap)) return false;
+  for (TriId t : other.tris.ids()) {
+    const Corners corners = other.corners(t);
+    const Box3 box = box_of(corners);
+    if (are_apart(box_, box, gap)) continue;
+    bool is_near = false;
+    collect_near(boxes_->bvh, boxes_->of_tris, box, gap, [&](TriId mine) {
+      is_near = is_near || are_within(corners, surface_.corners(mine), gap);
+    });
+    if (is_near) return true;
+  }
+  return false;
+}
+
 std::vector<TriPair> find_near_pairs(const TriMesh& surface, double gap,
                                      FunctionRef<bool(TriId a, TriId b)> accept) {
   const TriangleBvh bvh = build_triangle_bvh(surface);
   if (bvh.nodes.empty()) return {};
-  std::vector<Box3> boxes(surface.num_tris());
-  for (TriId t : surface.tris.ids()) boxes[t.index()] = box_of(surface.corners(t));
+  const std::vector<Box3> boxes = boxes_of(surface);
   constexpr std::size_t kGrain = 256;
   return parallel_reduce(
       surface.num_tris(), std::vector<TriPair>{},
@@ -136,8 +167,8 @@ std::vector<TriPair> find_near_pairs(const TriMesh& surface, double gap,
         std::vector<TriPair> pairs;
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t first = pairs.size();
-          collect_near(bvh, boxes, TriId(i), gap, [&](TriId b) {
-            if (accept(TriId(i), b)) pairs.push_back({TriId(i), b});
+          collect_near(bvh, boxes, boxes[i], gap, [&](TriId b) {
+            if (TriId(i) < b && accept(TriId(i), b)) pairs.push_back({TriId(i), b});
           });
           std::sort(pairs.begin() + static_cast<long>(first), pairs.end(),
                     [](const TriPair& p, const TriPair& q) { return p.b < q.b; });

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,23 @@ std::optional<Vec3> find_crossing(const Corners& a, const Corners& b, double dep
 
 /// Whether some points of the two are at most `gap` apart.
 bool are_within(const Corners& a, const Corners& b, double gap);
+
+/// A surface that others are held against.
+class NearSurface {
+ public:
+  /// Keeps a reference.
+  explicit NearSurface(const TriMesh& surface);
+  ~NearSurface();
+
+  /// Whether some points of the two are at most `gap` apart.
+  bool is_within(const TriMesh& other, double gap) const;
+
+ private:
+  struct Boxes;
+  const TriMesh& surface_;
+  Box3 box_;
+  std::unique_ptr<const Boxes> boxes_;
+};
 
 struct TriPair {
   TriId a, b;  ///< a < b

@@ -33,7 +33,7 @@ GridFile read_grid_file(const std::filesystem::path& path) {
 /// are when all of them are split.
 std::string grid_vtu(const Grid& grid) {
   const HexMesh mesh = grid_to_hexes(grid);
-  VtkOutput data = make_vtk_output(mesh, {}, {});
+  VtkOutput data = make_vtk_output(NodeTable(mesh, 8), {}, {});
   data.cell_data.front().name = "level";
   VtkOutArray frame;
   frame.name = "grid_frame";

@@ -2,8 +2,7 @@
 // surfaces as patches, the node set CORNERS as corners.
 //
 // Regions are the sets that *ELEMENT lines name; where these name none, the sets of *SOLID SECTION.
-// A face is of the first surface that lists it. Elements of second order are read by their corners'
-// order: their mid-nodes are passed over, and counted as others.
+// A face is of the first surface that lists it. Of tets of second order the corners are read.
 //
 // Based on: Dassault Systemes, "Abaqus Keywords Reference Guide": *NODE, *ELEMENT, *ELSET, *NSET,
 // *SURFACE, *SOLID SECTION. Differs: one part only; *INCLUDE and node systems are refused.
@@ -14,6 +13,7 @@
 #include <unordered_map>
 
 #include "io/mesh/foreign_labels.h"
+#include "io/mesh/read_mid_nodes.h"
 #include "io/mesh/set_names.h"
 #include "io/sets/face_table.h"
 #include "io/surface/polygon_soup.h"
@@ -112,7 +112,8 @@ struct AbaqusSurface {
 
 class AbaqusReader {
  public:
-  explicit AbaqusReader(const VolumeSource& source) : scanner_(source.bytes, source.name) {}
+  explicit AbaqusReader(const VolumeSource& source)
+      : scanner_(source.bytes, source.name), name_(source.name) {}
 
   VolumeFile run() {
     while (!scanner_.is_at_end()) read_line(scanner_.rest_of_line());
@@ -120,6 +121,7 @@ class AbaqusReader {
     set_regions();
     set_patches();
     set_corners();
+    mid_nodes_.settle(file_, name_);
     settle_labels(file_);
     names_.apply(file_);
     return std::move(file_);
@@ -239,6 +241,7 @@ class AbaqusReader {
       if (!element_to_hex_.try_emplace(element_[0], HexId(file_.hexes.size())).second)
         fail("element " + std::to_string(element_[0]) + " comes twice; export the file again");
       file_.hexes.push_back(first_verts<8>());
+      if (num_nodes_ == 20) mid_nodes_.add(file_, first_verts<20>());
       if (const std::string set = keyword_.get("ELSET"); !set.empty()) {
         set_of(set, element_sets_).ids.push_back(element_[0]);
         named_by_element_.insert(upper(set));
@@ -362,7 +365,9 @@ class AbaqusReader {
   }
 
   TextScanner scanner_;
+  const std::string& name_;
   VolumeFile file_;
+  MidNodeReader mid_nodes_;
   SetNames names_;
   Keyword keyword_;
   int num_parts_ = 0;

@@ -6,17 +6,34 @@
 // has one group only).
 //
 // Based on: Geuzaine, Remacle, "Gmsh reference manual", section "MSH file format", versions 4.1 and
-// 2. Its hexahedron and quadrilateral have our local order.
+// 2. Corners of its hexahedron and quadrilateral have our local order.
 #include <algorithm>
 
+#include "io/mesh/gmsh_order.h"
 #include "io/mesh/volume_file.h"
 #include "io/text/text_writer.h"
 
 namespace hexwright::io {
 namespace {
 
-// Gmsh's element types.
-constexpr int kGmshLine = 1, kGmshQuad = 3, kGmshHex = 5, kGmshPoint = 15;
+constexpr int kGmshPoint = 15;
+
+/// Gmsh's element types for each number of nodes per hex.
+struct GmshTypes {
+  int line, quad, hex;
+};
+GmshTypes gmsh_types(int nodes_per_hex) {
+  if (nodes_per_hex == 27) return {8, 10, 12};
+  if (nodes_per_hex == 20) return {8, 16, 17};
+  return {1, 3, 5};
+}
+
+/// Our number of each of its nodes.
+NodeList to_gmsh_order(const NodeList& hex) {
+  NodeList nodes;
+  for (std::size_t k = 0; k < hex.size(); ++k) nodes.push_back(hex[kGmshHexOrder[k]]);
+  return nodes;
+}
 
 /// Entity and physical tags must be positive: number + 1, moved up when numbers are negative (-1 is
 /// "none").
@@ -35,8 +52,10 @@ class TagMap {
 
 class GmshWriter {
  public:
-  GmshWriter(const HexMesh& mesh, const SetTable& table)
-      : mesh_(mesh),
+  GmshWriter(const NodeTable& nodes, const SetTable& table)
+      : nodes_(nodes),
+        mesh_(nodes.mesh()),
+        types_(gmsh_types(nodes.nodes_per_hex())),
         table_(table),
         regions_(table.regions),
         patches_(table.patches),
@@ -54,9 +73,9 @@ class GmshWriter {
   std::string run_2() {
     out_.text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
     write_names(false);
-    out_.text("$Nodes\n").integer(mesh_.num_verts()).text("\n");
-    for (VertId v : mesh_.positions.ids())
-      out_.integer(v.value() + 1).text(" ").point(mesh_.positions[v]).text("\n");
+    out_.text("$Nodes\n").integer(nodes_.size()).text("\n");
+    for (VertId v : nodes_.positions().ids())
+      out_.integer(v.value() + 1).text(" ").point(nodes_.positions()[v]).text("\n");
     out_.text("$EndNodes\n");
     write_elements_2();
     return out_.take();
@@ -89,7 +108,7 @@ class GmshWriter {
   /// One entity: tag, box, its physical groups, no bounding entities.
   void entity(std::int64_t tag, const NamedSet& set) {
     Box3 box;
-    for (VertId v : set_nodes(mesh_, set)) box.extend(mesh_.positions[v]);
+    for (VertId v : nodes_.set_nodes(set)) box.extend(nodes_.positions()[v]);
     std::vector<std::int64_t> groups = {tag};
     if (set.kind == SetKind::Patch)
       for (std::size_t g = 0; g < table_.patch_groups.size(); ++g)
@@ -113,12 +132,12 @@ class GmshWriter {
   }
 
   void write_nodes_4() {
-    const std::size_t count = mesh_.num_verts();
+    const std::size_t count = nodes_.size();
     const std::int64_t volume = table_.regions.empty() ? 1 : regions_(table_.regions[0].number);
     out_.text("$Nodes\n1 ").integer(count).text(" 1 ").integer(count).text("\n3 ");
     out_.integer(volume).text(" 0 ").integer(count).text("\n");
     for (std::size_t v = 1; v <= count; ++v) out_.integer(v).text("\n");
-    for (const Vec3& p : mesh_.positions) out_.point(p).text("\n");
+    for (const Vec3& p : nodes_.positions()) out_.point(p).text("\n");
     out_.text("$EndNodes\n");
   }
 
@@ -149,16 +168,16 @@ class GmshWriter {
       element(std::array{labels.corners[c]});
     }
     for (const NamedSet& set : table_.curves) {
-      block(1, curves_(set.number), kGmshLine, set.members.size());
-      for (std::size_t e : set.members) element(labels.edges[e].verts);
+      block(1, curves_(set.number), types_.line, set.members.size());
+      for (std::size_t e : set.members) element(nodes_.edge(labels.edges[e].verts));
     }
     for (const NamedSet& set : table_.patches) {
-      block(2, patches_(set.number), kGmshQuad, set.members.size());
-      for (std::size_t q : set.members) element(labels.quads[q].verts);
+      block(2, patches_(set.number), types_.quad, set.members.size());
+      for (std::size_t q : set.members) element(nodes_.quad(labels.quads[q].verts));
     }
     for (const NamedSet& set : table_.regions) {
-      block(3, regions_(set.number), kGmshHex, set.members.size());
-      for (std::size_t h : set.members) element(mesh_.hexes[HexId(h)]);
+      block(3, regions_(set.number), types_.hex, set.members.size());
+      for (std::size_t h : set.members) element(to_gmsh_order(nodes_.hex(HexId(h))));
     }
     out_.text("$EndElements\n");
   }
@@ -177,17 +196,22 @@ class GmshWriter {
       element_2(kGmshPoint, 1, static_cast<std::int64_t>(c) + 1, std::array{labels.corners[c]});
     for (const NamedSet& set : table_.curves)
       for (std::size_t e : set.members)
-        element_2(kGmshLine, curves_(set.number), curves_(set.number), labels.edges[e].verts);
+        element_2(types_.line, curves_(set.number), curves_(set.number),
+                  nodes_.edge(labels.edges[e].verts));
     for (const NamedSet& set : table_.patches)
       for (std::size_t q : set.members)
-        element_2(kGmshQuad, patches_(set.number), patches_(set.number), labels.quads[q].verts);
+        element_2(types_.quad, patches_(set.number), patches_(set.number),
+                  nodes_.quad(labels.quads[q].verts));
     for (const NamedSet& set : table_.regions)
       for (std::size_t h : set.members)
-        element_2(kGmshHex, regions_(set.number), regions_(set.number), mesh_.hexes[HexId(h)]);
+        element_2(types_.hex, regions_(set.number), regions_(set.number),
+                  to_gmsh_order(nodes_.hex(HexId(h))));
     out_.text("$EndElements\n");
   }
 
+  const NodeTable& nodes_;
   const HexMesh& mesh_;
+  GmshTypes types_;
   const SetTable& table_;
   TagMap regions_, patches_, curves_;
   TextWriter out_;
@@ -204,12 +228,12 @@ NameRules gmsh_names() {
   return rules;
 }
 
-std::string gmsh_text(const HexMesh& mesh, const SetTable& table) {
-  return GmshWriter(mesh, table).run_4();
+std::string gmsh_text(const NodeTable& nodes, const SetTable& table) {
+  return GmshWriter(nodes, table).run_4();
 }
 
-std::string gmsh2_text(const HexMesh& mesh, const SetTable& table) {
-  return GmshWriter(mesh, table).run_2();
+std::string gmsh2_text(const NodeTable& nodes, const SetTable& table) {
+  return GmshWriter(nodes, table).run_2();
 }
 
 }  // namespace hexwright::io

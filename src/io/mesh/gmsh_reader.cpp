@@ -3,11 +3,14 @@
 // are no groups.
 //
 // Based on: Geuzaine, Remacle, "Gmsh reference manual", section "MSH file format".
-// Differs: elements of second order and of other kinds are counted and left out.
+// Differs: elements of other kinds, and tets of second order, are counted and left out.
+#include <algorithm>
 #include <array>
 #include <unordered_map>
 
 #include "io/mesh/foreign_labels.h"
+#include "io/mesh/gmsh_order.h"
+#include "io/mesh/read_mid_nodes.h"
 #include "io/mesh/set_names.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
@@ -17,7 +20,18 @@ namespace hexwright::io {
 namespace {
 
 // Gmsh's element types.
-enum GmshType : std::int64_t { Line = 1, Quad = 3, Tetra = 4, Hexahedron = 5, Point = 15 };
+enum GmshType : std::int64_t {
+  Line = 1,
+  Quad = 3,
+  Tetra = 4,
+  Hexahedron = 5,
+  Line3 = 8,
+  Quad9 = 10,
+  Hexahedron27 = 12,
+  Point = 15,
+  Quad8 = 16,
+  Hexahedron20 = 17
+};
 
 /// What an element belongs to: its physical group, or its entity where it is in none.
 struct GmshGroup {
@@ -27,7 +41,8 @@ struct GmshGroup {
 
 class GmshReader {
  public:
-  explicit GmshReader(const VolumeSource& source) : scanner_(source.bytes, source.name) {}
+  explicit GmshReader(const VolumeSource& source)
+      : scanner_(source.bytes, source.name), name_(source.name) {}
 
   VolumeFile run() {
     while (scanner_.skip_blank()) {
@@ -36,6 +51,7 @@ class GmshReader {
       read_section(section);
     }
     number_groups();
+    mid_nodes_.settle(file_, name_);
     settle_labels(file_);
     names_.apply(file_);
     return std::move(file_);
@@ -216,20 +232,43 @@ class GmshReader {
     return verts;
   }
 
+  void add_hex(const GmshGroup& group) {
+    file_.hexes.push_back(read_verts<8>());
+    hex_groups_.push_back(group);
+  }
+
+  template <std::size_t N>
+  void add_quadratic_hex(const GmshGroup& group) {
+    const auto in_file = read_verts<N>();
+    std::array<VertId, N> nodes;
+    for (std::size_t k = 0; k < N; ++k) nodes[kGmshHexOrder[k]] = in_file[k];
+    std::array<VertId, 8> corners;
+    std::copy(nodes.begin(), nodes.begin() + 8, corners.begin());
+    file_.hexes.push_back(corners);
+    hex_groups_.push_back(group);
+    mid_nodes_.add(file_, nodes);
+  }
+
+  /// Of sides and edges of second order the corners count; their mid-nodes are those of the hexes.
   void add_element(std::int64_t type, const GmshGroup& group) {
     switch (type) {
       case Hexahedron:
-        file_.hexes.push_back(read_verts<8>());
-        hex_groups_.push_back(group);
-        return;
+        return add_hex(group);
+      case Hexahedron20:
+        return add_quadratic_hex<20>(group);
+      case Hexahedron27:
+        return add_quadratic_hex<27>(group);
       case Tetra:
         file_.tets.push_back(read_verts<4>());
         return;
       case Quad:
+      case Quad8:
+      case Quad9:
         file_.labels.quads.push_back({read_verts<4>(), {}});
         quad_groups_.push_back(group);
         return;
       case Line:
+      case Line3:
         file_.labels.edges.push_back({read_verts<2>(), {}});
         edge_groups_.push_back(group);
         return;
@@ -272,8 +311,10 @@ class GmshReader {
   }
 
   TextScanner scanner_;
+  const std::string& name_;
   bool is_version_4_ = true;
   VolumeFile file_;
+  MidNodeReader mid_nodes_;
   SetNames names_;
   std::unordered_map<std::int64_t, VertId> node_to_vert_;
   std::array<std::map<std::int64_t, std::string>, 4> group_names_;

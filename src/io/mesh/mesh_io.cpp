@@ -5,6 +5,7 @@
 
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/set_summary.h"
+#include "hexwright/mesh/cut_hexes.h"
 
 #include "io/mesh/volume_file.h"
 #include "io/solver/solver_formats.h"
@@ -23,27 +24,34 @@ struct MeshFormat {
   const char* extension;
   VolumeFile (*read)(const VolumeSource&);  ///< null: only written
   NameRules (*names)();
-  std::string (*write)(const HexMesh&, const SetTable&, const WriteHexOptions&);
+  std::string (*write)(const NodeTable&, const SetTable&, const WriteHexOptions&);
+  /// Nodes per hex of second order that the format has, the usual number first; 0: none.
+  std::array<int, 2> second_order = {};
 };
 
+template <std::string (*Write)(const NodeTable&, const SetTable&)>
+std::string without_options(const NodeTable& nodes, const SetTable& table, const WriteHexOptions&) {
+  return Write(nodes, table);
+}
+
 template <std::string (*Write)(const HexMesh&, const SetTable&)>
-std::string without_options(const HexMesh& mesh, const SetTable& table, const WriteHexOptions&) {
-  return Write(mesh, table);
+std::string of_first_order(const NodeTable& nodes, const SetTable& table, const WriteHexOptions&) {
+  return Write(nodes.mesh(), table);
 }
 
 constexpr MeshFormat kFormats[] = {
-    {"VTU", "vtu", ".vtu", read_vtu, vtk_names, vtu_bytes},
-    {"legacy VTK", "vtk", ".vtk", read_vtk_legacy, vtk_names, vtk_legacy_bytes},
-    {"MEDIT", "medit", ".mesh", read_medit, medit_names, without_options<medit_text>},
-    {"Gmsh 4.1", "gmsh", ".msh", read_gmsh, gmsh_names, without_options<gmsh_text>},
-    {"Gmsh 2.2", "gmsh2", ".msh2", read_gmsh, gmsh_names, without_options<gmsh2_text>},
-    {"Abaqus", "abaqus", ".inp", read_abaqus, abaqus_names, without_options<abaqus_text>},
-    {"MFEM", "mfem", ".mfem", nullptr, mfem_names, without_options<mfem_text>},
-    {"Exodus II", "exodus", ".exo", nullptr, exodus_names, without_options<exodus_bytes>},
-    {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>},
-    {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>},
-    {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, without_options<lsdyna_text>},
-    {"SU2", "su2", ".su2", nullptr, su2_names, without_options<su2_text>}};
+    {"VTU", "vtu", ".vtu", read_vtu, vtk_names, vtu_bytes, {20, 27}},
+    {"legacy VTK", "vtk", ".vtk", read_vtk_legacy, vtk_names, vtk_legacy_bytes, {20, 27}},
+    {"MEDIT", "medit", ".mesh", read_medit, medit_names, of_first_order<medit_text>},
+    {"Gmsh 4.1", "gmsh", ".msh", read_gmsh, gmsh_names, without_options<gmsh_text>, {27, 20}},
+    {"Gmsh 2.2", "gmsh2", ".msh2", read_gmsh, gmsh_names, without_options<gmsh2_text>, {27, 20}},
+    {"Abaqus", "abaqus", ".inp", read_abaqus, abaqus_names, without_options<abaqus_text>, {20}},
+    {"MFEM", "mfem", ".mfem", nullptr, mfem_names, without_options<mfem_text>, {27}},
+    {"Exodus II", "exodus", ".exo", nullptr, exodus_names, without_options<exodus_bytes>, {20}},
+    {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>, {20}},
+    {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>, {20}},
+    {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, of_first_order<lsdyna_text>},
+    {"SU2", "su2", ".su2", nullptr, su2_names, of_first_order<su2_text>}};
 
 /// The one format that is a folder.
 constexpr const char* kOpenFoam = "openfoam";
@@ -73,6 +81,36 @@ std::string list_formats(bool only_read) {
     if (f.read || !only_read)
       list += (list.empty() ? "" : ", ") + std::string(f.name) + " " + f.extension;
   return list;
+}
+
+bool has_nodes(const MeshFormat& format, int nodes) {
+  return nodes != 0 && (format.second_order[0] == nodes || format.second_order[1] == nodes);
+}
+
+/// Of the formats that have hexes with so many nodes, or with any number of second order when 0.
+std::string list_second_order(int nodes) {
+  std::string list;
+  for (const MeshFormat& f : kFormats)
+    if (nodes == 0 ? f.second_order[0] != 0 : has_nodes(f, nodes))
+      list += (list.empty() ? "" : ", ") + std::string(f.name) + " " + f.extension;
+  return list;
+}
+
+/// Of hexes of second order, `wanted` or the usual number. Throws Error{BadArgument} when the
+/// format (null: OpenFOAM) does not have it.
+int choose_nodes(const MeshFormat* format, int wanted, const std::filesystem::path& path) {
+  const std::string name = format ? format->name : "OpenFOAM";
+  if (!format || format->second_order[0] == 0)
+    throw Error(ErrorCode::BadArgument,
+                name + " has no hexes of second order; use one of " + list_second_order(0) +
+                    ", or --order 1",
+                path.string());
+  if (wanted != 0 && !has_nodes(*format, wanted))
+    throw Error(ErrorCode::BadArgument,
+                name + " has no hexes of " + std::to_string(wanted) + " nodes; use one of " +
+                    list_second_order(wanted),
+                path.string());
+  return wanted != 0 ? wanted : format->second_order[0];
 }
 
 /// The whole file is in memory while it is parsed: readers work on views into it.
@@ -132,12 +170,13 @@ VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& exte
 }
 
 /// Later kinds overwrite earlier ones: a corner lies on edges and quads too.
-std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh) {
-  std::vector<std::uint8_t> flags(mesh.num_verts(), 0);
+std::vector<std::uint8_t> compute_feature_flags(const NodeTable& nodes) {
+  const HexMesh& mesh = nodes.mesh();
+  std::vector<std::uint8_t> flags(nodes.size(), 0);
   for (const LabeledQuad& quad : mesh.labels.quads)
-    for (VertId v : quad.verts) flags[v.index()] = 1;
+    for (VertId v : nodes.quad(quad.verts)) flags[v.index()] = 1;
   for (const LabeledEdge& edge : mesh.labels.edges)
-    for (VertId v : edge.verts) flags[v.index()] = 2;
+    for (VertId v : nodes.edge(edge.verts)) flags[v.index()] = 2;
   for (VertId v : mesh.labels.corners) flags[v.index()] = 3;
   return flags;
 }
@@ -155,16 +194,24 @@ HexMesh read_hex_mesh(const std::filesystem::path& path) {
   mesh.region = IdVector<HexId, std::int32_t>(std::move(file.region));
   mesh.region_names = std::move(file.region_names);
   mesh.labels = std::move(file.labels);
+  mesh.mid_nodes = std::move(file.mid_nodes);
   if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);
   return mesh;
 }
 
 TetMesh read_tet_mesh(const std::filesystem::path& path) {
   io::VolumeFile file = io::read_volume_file(path);
-  if (file.tets.empty())
-    throw io::bad_file(path.string(), "the file holds no tetrahedron (" + io::content_of(file) +
-                                          "); give a tetrahedral mesh");
+  if (file.tets.empty() && file.hexes.empty())
+    throw io::bad_file(path.string(), "the file holds no tetrahedron and no hexahedron (" +
+                                          io::content_of(file) + "); give a mesh of one of them");
   TetMesh mesh;
+  if (file.tets.empty()) {
+    HexMesh hexes;
+    hexes.positions = std::move(file.positions);
+    hexes.hexes = std::move(file.hexes);
+    if (const auto issue = hexes.find_problem()) throw io::bad_file(path.string(), issue->message);
+    return cut_hexes(hexes);
+  }
   mesh.positions = std::move(file.positions);
   mesh.tets = std::move(file.tets);
   if (const auto issue = mesh.find_problem()) throw io::bad_file(path.string(), issue->message);
@@ -174,7 +221,8 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
 WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
                               const WriteHexOptions& options) {
   io::check_writable(mesh, options);
-  check_hex_mesh_format(path, options.format);
+  const bool is_linear = !mesh.mid_nodes || options.nodes_per_hex == 8;
+  check_hex_mesh_format(path, options.format, is_linear ? 1 : 2, options.nodes_per_hex);
   WriteHexResult result;
   SetTable table = make_set_table(mesh);
   if (options.names_by_place) name_by_place(mesh, table);
@@ -185,12 +233,20 @@ WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& 
   }
   const io::MeshFormat* format = io::find_format(path, options.format);
   result.changed_names = apply_name_rules(format->names(), table);
-  write_file_atomically(path, format->write(mesh, table, options));
+  const io::NodeTable nodes(mesh,
+                            is_linear ? 8 : io::choose_nodes(format, options.nodes_per_hex, path));
+  write_file_atomically(path, format->write(nodes, table, options));
   return result;
 }
 
-void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format) {
-  if (io::is_openfoam(path, format) || io::find_format(path, format)) return;
+void check_hex_mesh_format(const std::filesystem::path& path, const std::string& format, int order,
+                           int nodes_per_hex) {
+  const io::MeshFormat* found = io::find_format(path, format);
+  if (io::is_openfoam(path, format) || found) {
+    if (order == 2)
+      io::choose_nodes(io::is_openfoam(path, format) ? nullptr : found, nodes_per_hex, path);
+    return;
+  }
   if (!format.empty()) {
     std::string list;
     for (const std::string& known : hex_mesh_formats()) list += (list.empty() ? "" : ", ") + known;

@@ -11,6 +11,8 @@
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/mesh/tet_mesh.h"
 
+#include "io/sets/node_table.h"
+
 namespace hexwright::io {
 
 /// Elements of one file. Indices are checked by the readers.
@@ -19,6 +21,7 @@ struct VolumeFile {
   IdVector<HexId, std::array<VertId, 8>> hexes;
   std::vector<std::int32_t> region;       ///< one per hex, or empty
   std::vector<std::string> region_names;  ///< as in HexMesh
+  std::optional<MidNodes> mid_nodes;      ///< when there are hexes of second order
   IdVector<TetId, std::array<VertId, 4>> tets;
   BoundaryLabels labels;
   std::size_t num_others = 0;      ///< elements of kinds that are left out
@@ -40,18 +43,20 @@ VolumeFile read_abaqus(const VolumeSource& source);
 VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension);
 
 std::string medit_text(const HexMesh& mesh, const SetTable& table);
-std::string gmsh_text(const HexMesh& mesh, const SetTable& table);
-std::string gmsh2_text(const HexMesh& mesh, const SetTable& table);
-std::string vtk_legacy_bytes(const HexMesh& mesh, const SetTable& table,
+std::string gmsh_text(const NodeTable& nodes, const SetTable& table);
+std::string gmsh2_text(const NodeTable& nodes, const SetTable& table);
+std::string vtk_legacy_bytes(const NodeTable& nodes, const SetTable& table,
                              const WriteHexOptions& options);
-std::string vtu_bytes(const HexMesh& mesh, const SetTable& table, const WriteHexOptions& options);
+std::string vtu_bytes(const NodeTable& nodes, const SetTable& table,
+                      const WriteHexOptions& options);
 
 NameRules medit_names();
 NameRules gmsh_names();
 NameRules vtk_names();
 
-/// 0 = inside the volume or unlabelled, 1 = on a labelled quad, 2 = on a labelled edge, 3 = corner.
-std::vector<std::uint8_t> compute_feature_flags(const HexMesh& mesh);
+/// Per node: 0 = inside the volume or unlabelled, 1 = on a labelled quad, 2 = on a labelled edge, 3
+/// = corner.
+std::vector<std::uint8_t> compute_feature_flags(const NodeTable& nodes);
 
 /// Patch or curve number <-> the number in files whose 0 means "none": one more, 0 when invalid.
 template <class IdType>

@@ -6,11 +6,13 @@
 // as other programs keep Gmsh's physical groups.
 #include "io/mesh/vtk_cells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hexwright/base/cancel.h"
 
+#include "io/mesh/read_mid_nodes.h"
 #include "io/mesh/set_names.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
@@ -56,6 +58,7 @@ class VtkConverter {
       begin = end;
     }
     read_field_data();
+    mid_nodes_.settle(file_, name_);
     return std::move(file_);
   }
 
@@ -103,6 +106,32 @@ class VtkConverter {
     if (region_) file_.region.push_back(integer_at(region_, cell_));
   }
 
+  template <std::size_t N>
+  void add_quadratic_hex(std::span<const std::int64_t> cell) {
+    const auto nodes = to_verts<N>(cell);
+    std::array<VertId, 8> corners;
+    std::copy(nodes.begin(), nodes.begin() + 8, corners.begin());
+    add_hex(corners);
+    mid_nodes_.add(file_, nodes);
+  }
+
+  /// The corners of a quad or edge of second order.
+  template <std::size_t N>
+  std::array<VertId, N> to_corners(std::span<const std::int64_t> cell,
+                                   std::size_t num_nodes) const {
+    if (cell.size() != num_nodes)
+      fail("it has " + std::to_string(cell.size()) + " vertices instead of " +
+           std::to_string(num_nodes));
+    return to_verts<N>(cell.first(N));
+  }
+
+  void add_quad(const std::array<VertId, 4>& verts) {
+    file_.labels.quads.push_back({verts, to_id<PatchId>(integer_at(patch_, cell_))});
+  }
+  void add_edge(const std::array<VertId, 2>& verts) {
+    file_.labels.edges.push_back({verts, to_id<CurveId>(integer_at(curve_, cell_))});
+  }
+
   /// VTK's hexahedron has our order; its voxel has lattice order, so two pairs change places.
   void add_cell(std::span<const std::int64_t> cell) {
     switch (grid_.types[cell_]) {
@@ -115,14 +144,20 @@ class VtkConverter {
       case VtkTetra:
         file_.tets.push_back(to_verts<4>(cell));
         return;
+      case VtkQuadraticHexahedron:
+        return add_quadratic_hex<20>(cell);
+      case VtkTriquadraticHexahedron:
+        return add_quadratic_hex<27>(cell);
       case VtkQuad:
-        file_.labels.quads.push_back(
-            {to_verts<4>(cell), to_id<PatchId>(integer_at(patch_, cell_))});
-        return;
+        return add_quad(to_verts<4>(cell));
+      case VtkQuadraticQuad:
+        return add_quad(to_corners<4>(cell, 8));
+      case VtkBiquadraticQuad:
+        return add_quad(to_corners<4>(cell, 9));
       case VtkLine:
-        file_.labels.edges.push_back(
-            {to_verts<2>(cell), to_id<CurveId>(integer_at(curve_, cell_))});
-        return;
+        return add_edge(to_verts<2>(cell));
+      case VtkQuadraticEdge:
+        return add_edge(to_corners<2>(cell, 3));
       case VtkVertex:
         file_.labels.corners.push_back(to_verts<1>(cell)[0]);
         return;
@@ -207,6 +242,7 @@ class VtkConverter {
   VtkGrid grid_;
   const std::string& name_;
   VolumeFile file_;
+  MidNodeReader mid_nodes_;
   const VtkArray* region_ = nullptr;
   const VtkArray* patch_ = nullptr;
   const VtkArray* curve_ = nullptr;
@@ -265,6 +301,16 @@ void add_names(const SetTable& table, VtkOutput& out) {
   for (VtkOutArray& name : names) out.field_data.push_back(std::move(name));
 }
 
+/// Types of cells for each number of nodes per hex.
+struct VtkTypes {
+  VtkCellType line, quad, hex;
+};
+VtkTypes vtk_types(int nodes_per_hex) {
+  if (nodes_per_hex == 27) return {VtkQuadraticEdge, VtkBiquadraticQuad, VtkTriquadraticHexahedron};
+  if (nodes_per_hex == 20) return {VtkQuadraticEdge, VtkQuadraticQuad, VtkQuadraticHexahedron};
+  return {VtkLine, VtkQuad, VtkHexahedron};
+}
+
 /// Our local order of all kinds is that of VTK.
 template <class Verts>
 void add_out_cell(const Verts& verts, VtkCellType type, VtkOutput& out) {
@@ -275,7 +321,9 @@ void add_out_cell(const Verts& verts, VtkCellType type, VtkOutput& out) {
 
 /// Quads, edges and corners as cells after the hexes, with their numbers as cell data; cells of
 /// another kind get -1.
-void add_set_cells(const HexMesh& mesh, VtkOutput& out) {
+void add_set_cells(const NodeTable& nodes, VtkOutput& out) {
+  const HexMesh& mesh = nodes.mesh();
+  const VtkTypes types = vtk_types(nodes.nodes_per_hex());
   VtkOutArray patch = int_array("patch", 1), curve = int_array("curve", 1);
   patch.ints.assign(mesh.num_hexes(), -1);
   curve.ints.assign(mesh.num_hexes(), -1);
@@ -284,11 +332,11 @@ void add_set_cells(const HexMesh& mesh, VtkOutput& out) {
     curve.ints.push_back(curve_value);
   };
   for (const LabeledQuad& quad : mesh.labels.quads) {
-    add_out_cell(quad.verts, VtkQuad, out);
+    add_out_cell(nodes.quad(quad.verts), types.quad, out);
     add(quad.patch.value(), -1);
   }
   for (const LabeledEdge& edge : mesh.labels.edges) {
-    add_out_cell(edge.verts, VtkLine, out);
+    add_out_cell(nodes.edge(edge.verts), types.line, out);
     add(-1, edge.curve.value());
   }
   for (VertId v : mesh.labels.corners) {
@@ -332,18 +380,20 @@ VolumeFile to_volume_file(VtkGrid&& grid, const std::string& file_name) {
 
 /// The same content for the legacy and the XML format. `feature` on the points is for looking at;
 /// what is read back are the field arrays.
-VtkOutput make_vtk_output(const HexMesh& mesh, const SetTable& table,
+VtkOutput make_vtk_output(const NodeTable& nodes, const SetTable& table,
                           const WriteHexOptions& options) {
+  const HexMesh& mesh = nodes.mesh();
   VtkOutput out;
-  out.connectivity.reserve(8 * mesh.num_hexes());
+  out.connectivity.reserve(static_cast<std::size_t>(nodes.nodes_per_hex()) * mesh.num_hexes());
   out.ends.reserve(mesh.num_hexes());
   out.types.reserve(mesh.num_hexes());
-  for (const auto& hex : mesh.hexes) add_out_cell(hex, VtkHexahedron, out);
-  if (options.write_sets) add_set_cells(mesh, out);
+  const VtkCellType type = vtk_types(nodes.nodes_per_hex()).hex;
+  for (HexId h : mesh.hexes.ids()) add_out_cell(nodes.hex(h), type, out);
+  if (options.write_sets) add_set_cells(nodes, out);
   add_cell_fields(mesh, options, out);
   const BoundaryLabels& labels = mesh.labels;
   if (!labels.quads.empty() || !labels.edges.empty() || !labels.corners.empty()) {
-    const auto flags = compute_feature_flags(mesh);
+    const auto flags = compute_feature_flags(nodes);
     VtkOutArray feature = int_array("feature", 1);
     feature.ints.assign(flags.begin(), flags.end());
     out.point_data.push_back(std::move(feature));

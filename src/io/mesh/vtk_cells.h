@@ -18,7 +18,12 @@ enum VtkCellType : std::int32_t {
   VtkQuad = 9,
   VtkTetra = 10,
   VtkVoxel = 11,
-  VtkHexahedron = 12
+  VtkHexahedron = 12,
+  VtkQuadraticEdge = 21,
+  VtkQuadraticQuad = 23,
+  VtkQuadraticHexahedron = 25,
+  VtkBiquadraticQuad = 28,
+  VtkTriquadraticHexahedron = 29
 };
 
 /// Every number type of the formats fits a double but for huge integers, which no index needs.
@@ -59,7 +64,7 @@ struct VtkOutput {
   std::vector<VtkOutArray> point_data;
   std::vector<VtkOutArray> field_data;
 };
-VtkOutput make_vtk_output(const HexMesh& mesh, const SetTable& table,
+VtkOutput make_vtk_output(const NodeTable& nodes, const SetTable& table,
                           const WriteHexOptions& options);
 std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data);
 

@@ -342,15 +342,15 @@ VolumeFile read_vtk_legacy(const VolumeSource& source) {
 
 /// Version 4.2, which every reader takes; 64-bit offsets of version 5 would gain
 /// nothing below 2^31 entries.
-std::string vtk_legacy_bytes(const HexMesh& mesh, const SetTable& table,
+std::string vtk_legacy_bytes(const NodeTable& nodes, const SetTable& table,
                              const WriteHexOptions& options) {
-  const VtkOutput data = make_vtk_output(mesh, table, options);
+  const VtkOutput data = make_vtk_output(nodes, table, options);
   const std::size_t num_cells = data.types.size();
   TextWriter out;
   out.text("# vtk DataFile Version 4.2\nhexwright\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
   write_field(out, data.field_data);
-  out.text("POINTS ").integer(mesh.num_verts()).text(" double\n");
-  for (const Vec3& p : mesh.positions)
+  out.text("POINTS ").integer(nodes.size()).text(" double\n");
+  for (const Vec3& p : nodes.positions())
     for (int axis = 0; axis < 3; ++axis) out.binary(p[axis], ByteOrder::Big);
   out.text("\nCELLS ").integer(num_cells).text(" ");
   out.integer(num_cells + data.connectivity.size()).text("\n");
@@ -364,7 +364,7 @@ std::string vtk_legacy_bytes(const HexMesh& mesh, const SetTable& table,
   for (std::uint8_t type : data.types) out.binary(std::int32_t{type}, ByteOrder::Big);
   if (!data.cell_data.empty()) out.text("\nCELL_DATA ").integer(num_cells).text("\n");
   write_field(out, data.cell_data);
-  if (!data.point_data.empty()) out.text("\nPOINT_DATA ").integer(mesh.num_verts()).text("\n");
+  if (!data.point_data.empty()) out.text("\nPOINT_DATA ").integer(nodes.size()).text("\n");
   write_field(out, data.point_data);
   return out.take();
 }

@@ -100,8 +100,9 @@ VolumeFile read_vtu(const VolumeSource& source) {
   return to_volume_file(VtuReader(source).run(), source.name);
 }
 
-std::string vtu_bytes(const HexMesh& mesh, const SetTable& table, const WriteHexOptions& options) {
-  return vtu_bytes(mesh.positions, make_vtk_output(mesh, table, options));
+std::string vtu_bytes(const NodeTable& nodes, const SetTable& table,
+                      const WriteHexOptions& options) {
+  return vtu_bytes(nodes.positions(), make_vtk_output(nodes, table, options));
 }
 
 std::string vtu_bytes(const IdVector<VertId, Vec3>& positions, const VtkOutput& data) {

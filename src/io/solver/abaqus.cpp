@@ -1,4 +1,5 @@
-// Writes Abaqus input files (.inp), which CalculiX reads too: C3D8 elements and named sets.
+// Writes Abaqus input files (.inp), which CalculiX reads too: C3D8 or C3D20 elements and named
+// sets.
 //
 // Element sets per region and EALL of all; per patch an element-face surface and a node set with
 // _NODES behind its name; node sets of curves and corners. Coordinates have 13 digits, because
@@ -19,28 +20,35 @@ void write_node_set(TextWriter& out, const std::string& name, const std::vector<
   out.lines(8, ", ", nodes, [&](VertId v) { out.integer(v.value() + 1); });
 }
 
-void write_nodes_and_elements(const HexMesh& mesh, const SetTable& table, TextWriter& out) {
+/// A line takes 16 numbers; one that goes on ends with a comma.
+void write_element(HexId h, const NodeList& nodes, TextWriter& out) {
+  constexpr std::size_t kPerLine = 16;
+  out.integer(h.value() + 1);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    out.text(k + 1 == kPerLine ? ",\n" : ", ").integer(nodes[k].value() + 1);
+  out.text("\n");
+}
+
+void write_nodes_and_elements(const NodeTable& nodes, const SetTable& table, TextWriter& out) {
   out.text("*HEADING\nhexwright\n*NODE\n");
-  for (VertId v : mesh.positions.ids()) {
+  const auto& positions = nodes.positions();
+  for (VertId v : positions.ids()) {
     out.integer(v.value() + 1);
-    for (int axis = 0; axis < 3; ++axis) out.text(", ").real_rounded(mesh.positions[v][axis], 12);
+    for (int axis = 0; axis < 3; ++axis) out.text(", ").real_rounded(positions[v][axis], 12);
     out.text("\n");
   }
   for (const NamedSet& region : table.regions) {
-    out.text("*ELEMENT, TYPE=C3D8, ELSET=").text(region.name).text("\n");
-    for (std::size_t h : region.members) {
-      out.integer(h + 1);
-      for (VertId v : mesh.hexes[HexId(h)]) out.text(", ").integer(v.value() + 1);
-      out.text("\n");
-    }
+    out.text("*ELEMENT, TYPE=").text(nodes.is_linear() ? "C3D8" : "C3D20");
+    out.text(", ELSET=").text(region.name).text("\n");
+    for (std::size_t h : region.members) write_element(HexId(h), nodes.hex(HexId(h)), out);
   }
   out.text("*ELSET, ELSET=EALL\n");
   for (const NamedSet& region : table.regions) out.text(region.name).text("\n");
 }
 
-void write_quad_set(const HexMesh& mesh, const NamedSet& patch, const std::vector<HexFace>& sides,
-                    TextWriter& out) {
-  write_node_set(out, patch.name + "_NODES", set_nodes(mesh, patch));
+void write_quad_set(const NodeTable& nodes, const NamedSet& patch,
+                    const std::vector<HexFace>& sides, TextWriter& out) {
+  write_node_set(out, patch.name + "_NODES", nodes.set_nodes(patch));
   out.text("*SURFACE, NAME=").text(patch.name).text(", TYPE=ELEMENT\n");
   for (std::size_t q : patch.members)
     out.integer(sides[q].hex.value() + 1)
@@ -63,14 +71,14 @@ NameRules abaqus_names() {
   return rules;
 }
 
-std::string abaqus_text(const HexMesh& mesh, const SetTable& table) {
-  const std::vector<HexFace> sides = find_quad_sides(mesh);
+std::string abaqus_text(const NodeTable& nodes, const SetTable& table) {
+  const std::vector<HexFace> sides = find_quad_sides(nodes.mesh());
   TextWriter out;
-  write_nodes_and_elements(mesh, table, out);
+  write_nodes_and_elements(nodes, table, out);
   for (const auto* patches : {&table.patches, &table.patch_groups})
-    for (const NamedSet& patch : *patches) write_quad_set(mesh, patch, sides, out);
+    for (const NamedSet& patch : *patches) write_quad_set(nodes, patch, sides, out);
   for (const auto* sets : {&table.curves, &table.corners})
-    for (const NamedSet& set : *sets) write_node_set(out, set.name, set_nodes(mesh, set));
+    for (const NamedSet& set : *sets) write_node_set(out, set.name, nodes.set_nodes(set));
   return out.take();
 }
 

@@ -20,12 +20,19 @@ constexpr std::size_t kNameLength = 32;
 // 2 2-3-7-6, 3 3-4-8-7, 4 1-5-8-4, 5 1-4-3-2, 6 5-6-7-8.
 constexpr std::array<std::int32_t, 6> kExodusSide = {4, 2, 1, 3, 5, 6};
 
+// Of the 12 edges, the vertical ones come before those of the top.
+constexpr std::array<std::size_t, 20> kNodeOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                                    10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+
 using Sets = std::vector<const NamedSet*>;
 
 class ExodusWriter {
  public:
-  ExodusWriter(const HexMesh& mesh, const SetTable& table)
-      : mesh_(mesh), sides_(find_quad_sides(mesh)), hex_to_element_(mesh.num_hexes()) {
+  ExodusWriter(const NodeTable& nodes, const SetTable& table)
+      : nodes_(nodes),
+        mesh_(nodes.mesh()),
+        sides_(find_quad_sides(mesh_)),
+        hex_to_element_(mesh_.num_hexes()) {
     for (const NamedSet& set : table.regions) blocks_.push_back(&set);
     for (const auto* sets : {&table.patches, &table.patch_groups})
       for (const NamedSet& set : *sets) side_sets_.push_back(&set);
@@ -58,10 +65,10 @@ class ExodusWriter {
 
   void write_coordinates() {
     const auto num_dim = out_.dimension("num_dim", 3);
-    const auto num_nodes = out_.dimension("num_nodes", mesh_.num_verts());
+    const auto num_nodes = out_.dimension("num_nodes", nodes_.size());
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> values;
-      for (const Vec3& p : mesh_.positions) values.push_back(p[axis]);
+      for (const Vec3& p : nodes_.positions()) values.push_back(p[axis]);
       out_.doubles(fmt::format("coord{}", "xyz"[axis]), {num_nodes}, values);
     }
     out_.texts("coor_names", {num_dim, name_length_}, {"x", "y", "z"}, kNameLength + 1);
@@ -91,13 +98,16 @@ class ExodusWriter {
       for (std::size_t h : blocks_[b]->members) {
         numbers.push_back(static_cast<std::int32_t>(h) + 1);
         hex_to_element_[HexId(h)] = static_cast<std::int32_t>(numbers.size());
-        for (VertId v : mesh_.hexes[HexId(h)]) connectivity.push_back(v.value() + 1);
+        const NodeList list = nodes_.hex(HexId(h));
+        for (std::size_t k = 0; k < list.size(); ++k)
+          connectivity.push_back(list[kNodeOrder[k]].value() + 1);
       }
       const auto count =
           out_.dimension(fmt::format("num_el_in_blk{}", b + 1), blocks_[b]->members.size());
-      const auto width = out_.dimension(fmt::format("num_nod_per_el{}", b + 1), 8);
+      const auto width = out_.dimension(fmt::format("num_nod_per_el{}", b + 1),
+                                        static_cast<std::size_t>(nodes_.nodes_per_hex()));
       out_.ints(fmt::format("connect{}", b + 1), {count, width}, connectivity,
-                {"elem_type", "HEX8"});
+                {"elem_type", nodes_.is_linear() ? "HEX8" : "HEX20"});
     }
     out_.ints("elem_num_map", {num_elements}, numbers);
   }
@@ -120,12 +130,13 @@ class ExodusWriter {
     write_list(node_sets_, "ns", "num_node_sets");
     for (std::size_t s = 0; s < node_sets_.size(); ++s) {
       std::vector<std::int32_t> nodes;
-      for (VertId v : set_nodes(mesh_, *node_sets_[s])) nodes.push_back(v.value() + 1);
+      for (VertId v : nodes_.set_nodes(*node_sets_[s])) nodes.push_back(v.value() + 1);
       const auto count = out_.dimension(fmt::format("num_nod_ns{}", s + 1), nodes.size());
       out_.ints(fmt::format("node_ns{}", s + 1), {count}, nodes);
     }
   }
 
+  const NodeTable& nodes_;
   const HexMesh& mesh_;
   Sets blocks_, side_sets_, node_sets_;
   std::vector<HexFace> sides_;
@@ -143,8 +154,8 @@ NameRules exodus_names() {
   return rules;
 }
 
-std::string exodus_bytes(const HexMesh& mesh, const SetTable& table) {
-  return ExodusWriter(mesh, table).run();
+std::string exodus_bytes(const NodeTable& nodes, const SetTable& table) {
+  return ExodusWriter(nodes, table).run();
 }
 
 }  // namespace hexwright::io

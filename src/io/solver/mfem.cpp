@@ -3,8 +3,13 @@
 // Attributes of elements are the regions, those of boundary elements the patches, both counted from
 // 1 in increasing order of their numbers; the format has no sets of edges or points.
 //
+// A mesh of second order has its nodes as a function in H1 of degree 2: at vertices, edges, faces
+// and hexes, each in the order in which the library numbers them, which is that of their first hex.
+//
 // Based on: "MFEM mesh formats", section "MFEM mesh v1.0" and "v1.3" of the library's
 // documentation. Its cube and square have our local order.
+#include <utility>
+
 #include "io/solver/boundary_sides.h"
 #include "io/solver/solver_formats.h"
 #include "io/text/text_writer.h"
@@ -62,6 +67,25 @@ void write_square(std::size_t attribute, const std::array<VertId, 4>& verts, Tex
   out.integer(attribute).text(" ").integer(kSquare).text(" ").indices(verts, 0).text("\n");
 }
 
+/// Local faces in the library's order.
+constexpr std::array<int, 6> kMfemFaces = {4, 2, 1, 3, 0, 5};
+
+void write_nodes(const NodeTable& nodes, TextWriter& out) {
+  const HexMesh& mesh = nodes.mesh();
+  out.text(
+      "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_3D_P2\nVDim: 3\nOrdering: 1\n\n");
+  const auto put = [&](VertId v) { out.point(nodes.positions()[v]).text("\n"); };
+  const std::size_t first_face = mesh.num_verts() + mesh.mid_nodes->edges.size();
+  for (std::size_t v = 0; v < first_face; ++v) put(VertId(v));
+  std::vector<char> is_put(nodes.size(), 0);
+  for (HexId h : mesh.hexes.ids())
+    for (int lf : kMfemFaces) {
+      const VertId v = nodes.face({h, lf});
+      if (std::exchange(is_put[v.index()], 1) == 0) put(v);
+    }
+  for (HexId h : mesh.hexes.ids()) put(nodes.middle(h));
+}
+
 }  // namespace
 
 NameRules mfem_names() {
@@ -71,7 +95,8 @@ NameRules mfem_names() {
   return rules;
 }
 
-std::string mfem_text(const HexMesh& mesh, const SetTable& table) {
+std::string mfem_text(const NodeTable& nodes, const SetTable& table) {
+  const HexMesh& mesh = nodes.mesh();
   const BoundarySides sides = find_boundary_sides(mesh, table);
   TextWriter out;
   out.text("MFEM mesh v1.3\n\ndimension\n3\n");
@@ -82,8 +107,13 @@ std::string mfem_text(const HexMesh& mesh, const SetTable& table) {
   for (const InnerSide& side : sides.inner)
     write_square(side.patch + 1, mesh.labels.quads[side.quad].verts, out);
   write_boundary_names(table, sides, out);
-  out.text("\nvertices\n").integer(mesh.num_verts()).text("\n3\n");
-  for (const Vec3& p : mesh.positions) out.point(p).text("\n");
+  out.text("\nvertices\n").integer(mesh.num_verts()).text("\n");
+  if (nodes.is_linear()) {
+    out.text("3\n");
+    for (const Vec3& p : mesh.positions) out.point(p).text("\n");
+  } else {
+    write_nodes(nodes, out);
+  }
   out.text("mfem_mesh_end\n");
   return out.take();
 }

@@ -45,22 +45,27 @@ class Card {
 
 std::size_t number(VertId v) { return v.index() + 1; }
 
-void write_grid(const HexMesh& mesh, TextWriter& out) {
-  for (VertId v : mesh.positions.ids()) {
-    const Vec3& p = mesh.positions[v];
+/// Of the 12 edges, the vertical ones come before those of the top.
+constexpr std::array<std::size_t, 20> kNodeOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                                    10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+
+void write_grid(const IdVector<VertId, Vec3>& positions, TextWriter& out) {
+  for (VertId v : positions.ids()) {
+    const Vec3& p = positions[v];
     out.text("GRID*   ").integer_in(16, number(v)).text("                ");
     out.real_in(16, p.x).real_in(16, p.y).text("\n*       ").real_in(16, p.z).text("\n");
   }
 }
 
-void write_elements(const HexMesh& mesh, const SetTable& table, TextWriter& out) {
+void write_elements(const NodeTable& nodes, const SetTable& table, TextWriter& out) {
   for (std::size_t r = 0; r < table.regions.size(); ++r) {
     out.text("$ region ").integer(r + 1).text(" ").text(table.regions[r].name).text("\n");
     Card(out, "PSOLID").field(r + 1).field(1);
     for (std::size_t h : table.regions[r].members) {
       Card card(out, "CHEXA");
       card.field(h + 1).field(r + 1);
-      for (VertId v : mesh.hexes[HexId(h)]) card.field(number(v));
+      const NodeList list = nodes.hex(HexId(h));
+      for (std::size_t k = 0; k < list.size(); ++k) card.field(number(list[kNodeOrder[k]]));
     }
   }
 }
@@ -77,11 +82,11 @@ void write_faces(const HexMesh& mesh, const NamedSet& patch, std::size_t id,
   }
 }
 
-void write_set(const HexMesh& mesh, const NamedSet& set, std::size_t id, TextWriter& out) {
+void write_set(const NodeTable& nodes, const NamedSet& set, std::size_t id, TextWriter& out) {
   out.text("$ set ").integer(id).text(" ").text(set.name).text("\n");
   Card card(out, "SET1");
   card.field(id);
-  for (VertId v : set_nodes(mesh, set)) card.field(number(v));
+  for (VertId v : nodes.set_nodes(set)) card.field(number(v));
 }
 
 }  // namespace
@@ -93,20 +98,21 @@ NameRules nastran_names() {
   return rules;
 }
 
-std::string nastran_text(const HexMesh& mesh, const SetTable& table) {
+std::string nastran_text(const NodeTable& nodes, const SetTable& table) {
+  const HexMesh& mesh = nodes.mesh();
   const std::vector<HexFace> sides = find_quad_sides(mesh);
   TextWriter out;
   out.text("$ hexwright\nSOL 101\nCEND\nBEGIN BULK\n");
-  write_grid(mesh, out);
-  write_elements(mesh, table, out);
+  write_grid(nodes.positions(), out);
+  write_elements(nodes, table, out);
   std::size_t id = 0;
   for (const auto* sets : {&table.patches, &table.patch_groups})
     for (const NamedSet& patch : *sets) {
       write_faces(mesh, patch, ++id, sides, out);
-      write_set(mesh, patch, id, out);
+      write_set(nodes, patch, id, out);
     }
   for (const auto* sets : {&table.curves, &table.corners})
-    for (const NamedSet& set : *sets) write_set(mesh, set, ++id, out);
+    for (const NamedSet& set : *sets) write_set(nodes, set, ++id, out);
   out.text("ENDDATA\n");
   return out.take();
 }

@@ -6,16 +6,17 @@
 
 #include "hexwright/io/set_table.h"
 
+#include "io/sets/node_table.h"
 #include "io/text/folder_output.h"
 
 namespace hexwright::io {
 
-std::string abaqus_text(const HexMesh& mesh, const SetTable& table);
-std::string ansys_text(const HexMesh& mesh, const SetTable& table);
-std::string exodus_bytes(const HexMesh& mesh, const SetTable& table);
+std::string abaqus_text(const NodeTable& nodes, const SetTable& table);
+std::string ansys_text(const NodeTable& nodes, const SetTable& table);
+std::string exodus_bytes(const NodeTable& nodes, const SetTable& table);
 std::string lsdyna_text(const HexMesh& mesh, const SetTable& table);
-std::string mfem_text(const HexMesh& mesh, const SetTable& table);
-std::string nastran_text(const HexMesh& mesh, const SetTable& table);
+std::string mfem_text(const NodeTable& nodes, const SetTable& table);
+std::string nastran_text(const NodeTable& nodes, const SetTable& table);
 std::string su2_text(const HexMesh& mesh, const SetTable& table);
 std::vector<FolderFile> openfoam_files(const HexMesh& mesh, const SetTable& table);
 

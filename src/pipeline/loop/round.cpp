@@ -68,6 +68,14 @@ int deepest_level(const MeshOptions& options) {
   return std::min(options.sizing.max_level + options.loop_extra_levels, kMaxGridLevel);
 }
 
+void curve_round(const RoundInput& input, Round& round, const ExactShape* exact) {
+  if (input.options.order < 2 || !round.fit.parts || round.fit.mesh.num_hexes() == 0) return;
+  const CurvingTarget target = {input.target.tree, *round.fit.parts, input.plan.fit.carve.side,
+                                exact, input.target.frame};
+  round.curving = run_stage(round.stages, "curve", input.context,
+                            [&] { return curve_mesh(round.fit.mesh, target, input.context); });
+}
+
 /// Stages log their own counts, so that a report tells which of them made or lost hexes.
 Round run_round(const RoundInput& input, CompleteResult completed) {
   const Stopwatch clock;
@@ -90,6 +98,7 @@ Round run_round(const RoundInput& input, CompleteResult completed) {
   count(round.stages.back(), "carved", round.fit.report.num_hexes_carved);
   count(round.stages.back(), "padded", round.fit.report.num_hexes_padded);
 
+  curve_round(input, round);
   if (round.fit.mesh.num_hexes() > 0)
     round.verdict = run_stage(round.stages, "judge", input.context, [&] {
       return judge(round.fit.mesh, input.target, plan.judge, input.context);
@@ -117,6 +126,24 @@ Round lift_round(const RoundInput& input, Round round) {
   if (is_kept) return lifted;
   round.stages = std::move(lifted.stages);  // the time is spent
   round.fit.memory.reset();
+  return round;
+}
+
+Round layer_round(const RoundInput& input, Round round, MeshResult& result) {
+  if (input.options.layers.empty() || round.fit.mesh.num_hexes() == 0) return round;
+  if (round.verdict.quality.num_inverted > 0) return round;  // no result with layers either
+  round.fit.mesh.mid_nodes.reset();
+  LayersResult layered = run_stage(round.stages, "layers", input.context, [&] {
+    return add_layers(round.fit.mesh, input.target, input.options.layers, input.context);
+  });
+  round.fit.mesh = std::move(layered.mesh);
+  result.layer = std::move(layered.layer);
+  result.layers = std::move(layered.report);
+  count(round.stages.back(), "hexes", round.fit.mesh.num_hexes());
+  curve_round(input, round);
+  round.verdict = run_stage(round.stages, "judge", input.context, [&] {
+    return judge(round.fit.mesh, input.target, input.plan.judge, input.context);
+  });
   return round;
 }
 

@@ -25,6 +25,7 @@ struct Round {
   CompleteReport complete;
   DualReport dual;
   FitResult fit;
+  std::optional<CurvingReport> curving;  ///< of second order, as which the mesh is judged then
   Verdict verdict;
   /// Places on the features that finer cells can help to follow; none when enough is followed.
   std::vector<Vec3> refinable_features;
@@ -36,6 +37,10 @@ struct Round {
   RoundRecord record;
 };
 
+/// Gives the round's mesh its mid-nodes, on the exact shape where there is one, when second order
+/// is asked for.
+void curve_round(const RoundInput& input, Round& round, const ExactShape* exact = nullptr);
+
 /// Runs the stages on an already completed grid, without the lift.
 Round run_round(const RoundInput& input, CompleteResult completed);
 
@@ -43,6 +48,10 @@ Round run_round(const RoundInput& input, CompleteResult completed);
 /// least scaled Jacobian; the round as it was when that misses a demand that is met now and that
 /// users are told of.
 Round lift_round(const RoundInput& input, Round round);
+
+/// Puts the wall layers that are asked for into the round's mesh, and judges it with them. Fills
+/// the result's `layers` and `layer`.
+Round layer_round(const RoundInput& input, Round round, MeshResult& result);
 
 /// The mean two-way distance the loop is content with, a share of the diagonal; 0 = any.
 inline double mean_goal(const MeshOptions& options) {

@@ -49,6 +49,13 @@ NamedOption feature_angle_row(FeatureOptions& options) {
                      options.crease_angle, 1, 180);
 }
 
+NamedOption order_row(int& order) {
+  return whole_row(
+      {"order",
+       "Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it"},
+      order, 1, 2);
+}
+
 OptionTable fit_rows(FitOptions& options) {
   return {
       choice_row(
@@ -66,6 +73,24 @@ OptionTable fit_rows(FitOptions& options) {
                   "the tolerance; 0 = never"},
                  options.lift_goal, 0, 1),
   };
+}
+
+OptionTable layer_rows(LayersOptions& options) {
+  OptionTable table = {
+      list_row(
+          {"layers",
+           "Wall layers on the patches of this name (glob or regular expression, * for all): any "
+           "three of first, growth, count and total; lengths in the surface's unit, as 1% of "
+           "the diagonal or as 0.05h of the wall's edges; repeatable"},
+          "PATTERN=first:H,growth:R,count:N",
+          [&options](const std::string& text) { options.specs.push_back(parse_layer_spec(text)); }),
+      share_row({"layers-min-coverage",
+                 "Least share of the walls' area with all layers at half of their height or more; "
+                 "less fails the gate"},
+                options.min_coverage),
+  };
+  table.back().fallback = "0%";
+  return table;
 }
 
 OptionTable prepare_rows(PrepareOptions& options) {
@@ -160,6 +185,12 @@ OptionTable make_option_table(MeshOptions& options) {
        "given axes"},
       options.target.placement, kPlacementNames));
   append(table, prepare_rows(options.target.prepare));
+  table.push_back(share_row(
+      {"gap",
+       "Bodies nearer to each other than this share of the diagonal, or touching, are meshed each "
+       "by itself (inside only); 0 = never"},
+      options.gap));
+  table.back().fallback = "twice the tolerance";
   table.push_back(
       number_row({"transition-cost",
                   "What a cell beside another level counts more than one that is not, when levels "
@@ -174,7 +205,13 @@ OptionTable make_option_table(MeshOptions& options) {
   table.push_back(count_row({"max-hexes", "Budget of the background mesh"}, options.max_hexes));
   append(table, complete_rows(options.complete));
   append(table, fit_rows(options.fit));
+  table.push_back(order_row(options.order));
+  append(table, layer_rows(options.layers));
   table.push_back(feature_angle_row(options.target.features));
+  table.push_back(flag_row({"tangent-edges",
+                            "CAD files: edges where faces meet smoothly are features too, and "
+                            "every face is a patch of its own"},
+                           options.cad.split_tangent));
   return table;
 }
 
@@ -209,6 +246,7 @@ OptionTable make_option_table(FitStageOptions& options) {
   OptionTable table = {flag_row({"no-carve", "The mesh already stands for the object: only fit it"},
                                 options.fit.do_carve, false)};
   append(table, fit_rows(options.fit));
+  table.push_back(order_row(options.order));
   table.push_back(share_row(
       {"tolerance",
        "How far vertices may leave the surface for the least scaled Jacobian's sake, as a "
@@ -227,10 +265,15 @@ OptionTable make_option_table(ImproveOptions& options) {
 
 OptionTable make_option_table(PolycubeOptions& options) {
   OptionTable table = {
-      share_row({"max-stretch",
-                 "A cell is split while two object points in it are farther apart than this share "
-                 "of the diagonal"},
-                options.max_stretch),
+      share_row(
+          {"max-stretch",
+           "A cell is split while it is longer on the object than this share of the diagonal: "
+           "along its edges, or between two of the object's vertices in it"},
+          options.max_stretch),
+      count_row({"cells",
+                 "Hexes wanted, about: the stretch follows from it, and the surface ends up where "
+                 "that leads; 0 = off"},
+                options.target_hexes),
       share_row({"max-surface-error",
                  "Cells are split where the mesh would miss the surface by more than this share of "
                  "the diagonal, and again where it does"},
@@ -243,8 +286,10 @@ OptionTable make_option_table(PolycubeOptions& options) {
                 "Put a layer of hexes under the boundary: for polycube edges where the object is "
                 "smooth"},
                options.pad),
-      number_row({"spacing", "Edge of a lattice cube in polycube units; 0 derives it"},
-                 options.spacing, 0, kNoLimit),
+      number_row(
+          {"spacing",
+           "Edge of a lattice cube in polycube units, everywhere; 0 suits the lattice to the map"},
+          options.spacing, 0, kNoLimit),
       whole_row({"min-level", "Cells are at least this deep"}, options.min_level, 0, 12),
       whole_row({"max-level", "No cell is deeper"}, options.max_level, 0, 12),
       count_row({"max-cells", "Budget of cells"}, options.max_cells),

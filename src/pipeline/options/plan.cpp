@@ -74,6 +74,7 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   plan.dual.mode = dual_mode_of(wishes.complete.pairing);
   plan.fit = wishes.fit;
   plan.fit.tolerance = wishes.sizing.tolerance;
+  if (wishes.order == 2) plan.fit.patch_verts = PatchVerts::OnSurface;
   plan.judge = plan_judge(wishes);
   plan.budgets = plan_budgets(wishes, target);
   return plan;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hexwright/pipeline/inspect.h"
+#include "hexwright/pipeline/report.h"
 
 #include "base/words.h"
 
@@ -69,8 +70,9 @@ std::string inspection_to_text(const SurfaceInspection& s) {
                      line("box", at(s.box.lo) + " to " + at(s.box.hi) +
                                      fmt::format(", diagonal {:.6g}", s.box.diagonal()));
   if (!s.units_guess.empty()) text += line("", s.units_guess);
-  if (!s.names.empty()) text += line("names", counted(s.names.size(), "name", "names"));
-  for (const NamedShare& n : s.names)
+  if (s.cad) text += cad_to_text(*s.cad);
+  if (!s.cad && !s.names.empty()) text += line("names", counted(s.names.size(), "name", "names"));
+  for (const NamedShare& n : s.cad ? std::vector<NamedShare>{} : s.names)
     text += line("", fmt::format("{}: {}", n.name.empty() ? "(none)" : n.name,
                                  counted(n.num_tris, "triangle", "triangles")));
   // What is refused at once was not looked at.
@@ -87,29 +89,30 @@ std::string inspection_to_json(const SurfaceInspection& s) {
   Json names = Json::array();
   for (const NamedShare& n : s.names)
     names.push_back({{"name", n.name}, {"triangles", n.num_tris}});
-  const Json json = {{"triangles", s.num_tris},
-                     {"vertices", s.num_verts},
-                     {"box", {to_json(s.box.lo), to_json(s.box.hi)}},
-                     {"diagonal", s.box.diagonal()},
-                     {"units_guess", s.units_guess},
-                     {"area", s.area},
-                     {"volume", s.volume},
-                     {"names", names},
-                     {"solids", s.num_solids},
-                     {"cavities", s.num_cavities},
-                     {"triangles_of_no_closed_piece", s.num_open_tris},
-                     {"open_edges", s.num_open_edges},
-                     {"nonmanifold_edges", s.num_nonmanifold_edges},
-                     {"crossings", s.num_crossings},
-                     {"crossing_places", to_json(s.crossings, nullptr)},
-                     {"least_thickness", s.least_thickness},
-                     {"thin_places", to_json(s.thin, "thickness")},
-                     {"sharp_length", s.sharp_length},
-                     {"sharp_curves", s.num_sharp_curves},
-                     {"corners", s.num_corners},
-                     {"notes", s.notes},
-                     {"warnings", s.warnings},
-                     {"refusal", s.refusal}};
+  Json json = {{"triangles", s.num_tris},
+               {"vertices", s.num_verts},
+               {"box", {to_json(s.box.lo), to_json(s.box.hi)}},
+               {"diagonal", s.box.diagonal()},
+               {"units_guess", s.units_guess},
+               {"area", s.area},
+               {"volume", s.volume},
+               {"names", names},
+               {"solids", s.num_solids},
+               {"cavities", s.num_cavities},
+               {"triangles_of_no_closed_piece", s.num_open_tris},
+               {"open_edges", s.num_open_edges},
+               {"nonmanifold_edges", s.num_nonmanifold_edges},
+               {"crossings", s.num_crossings},
+               {"crossing_places", to_json(s.crossings, nullptr)},
+               {"least_thickness", s.least_thickness},
+               {"thin_places", to_json(s.thin, "thickness")},
+               {"sharp_length", s.sharp_length},
+               {"sharp_curves", s.num_sharp_curves},
+               {"corners", s.num_corners},
+               {"notes", s.notes},
+               {"warnings", s.warnings},
+               {"refusal", s.refusal}};
+  if (s.cad) json["cad"] = Json::parse(cad_to_json(*s.cad));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

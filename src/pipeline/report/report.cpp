@@ -4,8 +4,10 @@
 // rename or remove none without a note in the changelog. Angles are degrees here, radians inside.
 #include "hexwright/pipeline/report.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "hexwright/io/set_summary.h"
@@ -26,11 +28,25 @@ std::string to_text(const Json& json) {
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
+Json describe_layer_specs(const LayersOptions& options) {
+  constexpr const char* kUnits[] = {"world", "diagonal", "edge"};
+  Json list = Json::array();
+  for (const LayerSpec& spec : options.specs)
+    list.push_back({{"pattern", spec.pattern},
+                    {"first", spec.first.value},
+                    {"total", spec.total()},
+                    {"unit", kUnits[static_cast<std::size_t>(spec.first.unit)]},
+                    {"growth", spec.growth},
+                    {"count", spec.count}});
+  return list;
+}
+
 /// The surface is described as it was asked for in the end: some wishes follow from others.
 Json describe_options(const MeshOptions& o) {
   const TargetOptions target = plan_target(o);
   return {{"parts", name_of(kPartsNames, target.prepare.parts)},
           {"min_part", target.prepare.min_part},
+          {"gap", o.gap},
           {"sizing", name_of(kSizingNames, o.sizing.sizing)},
           {"tolerance", o.sizing.tolerance},
           {"deviation_factor", o.sizing.deviation_factor},
@@ -46,9 +62,13 @@ Json describe_options(const MeshOptions& o) {
           {"side", name_of(kSideNames, o.fit.carve.side)},
           {"padding", name_of(kPaddingNames, o.fit.padding)},
           {"vertices", name_of(kPatchVertsNames, o.fit.patch_verts)},
+          {"order", o.order},
           {"placement", name_of(kPlacementNames, target.placement)},
           {"feature_angle_deg", degrees(target.features.crease_angle)},
+          {"tangent_edges", o.cad.split_tangent},
           {"feature_edges_given", target.features.extra_segments.size()},
+          {"layers", describe_layer_specs(o.layers)},
+          {"layers_min_coverage", o.layers.min_coverage},
           {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
           {"max_hexes", o.max_hexes},
@@ -135,6 +155,53 @@ Json describe_fit(const FitReport& f) {
   return fit;
 }
 
+Json describe_curving(const CurvingReport& c) {
+  constexpr std::size_t kMaxListed = 20;
+  Json worst = Json::array();
+  for (std::size_t k = 0; k < std::min(kMaxListed, c.held_back.size()); ++k) {
+    const HeldBackEdge& edge = c.held_back[k];
+    worst.push_back({{"position", {edge.position.x, edge.position.y, edge.position.z}},
+                     {"share", edge.share},
+                     {"distance", edge.distance}});
+  }
+  return {{"edges", c.num_edges},         {"surface_edges", c.num_surface_edges},
+          {"curved_edges", c.num_curved}, {"unmatched_edges", c.num_unmatched},
+          {"max_offset", c.max_offset},   {"held_back_edges", c.held_back.size()},
+          {"worst_held_back", worst}};
+}
+
+Json describe_exact(const ExactReport& e) {
+  return {{"vertices", e.num_verts},
+          {"exact", e.num_exact},
+          {"short", e.num_short},
+          {"max_before", e.max_before},
+          {"max_after", e.max_after}};
+}
+
+Json describe_layers(const LayersReport& report) {
+  constexpr const char* kReasons[kNumLayerLimits] = {"other", "gap", "size", "shape", "no_sheet"};
+  Json patches = Json::array();
+  for (const PatchLayers& row : report.patches) {
+    Json reduced = Json::object();
+    for (std::size_t k = 0; k < kNumLayerLimits; ++k)
+      if (row.reduced[k] > 0) reduced[kReasons[k]] = row.reduced[k];
+    patches.push_back({{"patch", row.patch},
+                       {"count", row.count},
+                       {"area", row.area},
+                       {"covered", row.covered},
+                       {"mean_thickness", row.mean_thickness},
+                       {"least_thickness", row.least_thickness},
+                       {"least_at", {row.least_at.x, row.least_at.y, row.least_at.z}},
+                       {"mean_first", row.mean_first},
+                       {"reduced", reduced},
+                       {"note", row.note}});
+  }
+  return {{"coverage", report.coverage()},
+          {"sheet_hexes", report.num_sheet_hexes},
+          {"patches", patches},
+          {"unmatched", report.unmatched}};
+}
+
 Json describe_folded(const std::vector<FoldedHex>& folded) {
   Json json = Json::array();
   for (const FoldedHex& f : folded)
@@ -160,6 +227,9 @@ Json describe_polycube(const PolycubeReport& r) {
           {"cells", r.num_cells},
           {"bridged_vertices", r.num_bridged},
           {"inverted_after_mapping", r.num_inverted_mapped},
+          {"vertices_off_edges", r.num_off_edges},
+          {"vertices_off_surface", r.num_off_surface},
+          {"max_off_surface", r.max_off_surface},
           {"rounds", r.num_rounds},
           {"max_distance", r.max_distance},
           {"folded_hexes", describe_folded(r.folded)},
@@ -221,11 +291,15 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"edges", describe_edges(result)},
                  {"dual", describe_dual(result.dual)},
                  {"fit", describe_fit(result.fit)},
+                 {"layers", describe_layers(result.layers)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
+  if (result.curving) report["curving"] = describe_curving(*result.curving);
   SetTable table = make_set_table(result.mesh);
   name_by_place(result.mesh, table);
   report["sets"] = Json::parse(sets_to_json(summarize_sets(result.mesh, table)));
+  if (result.exact) report["exact_boundary"] = describe_exact(*result.exact);
+  if (run.cad) report["cad"] = Json::parse(cad_to_json(*run.cad));
   for (const ChangedName& name : run.changed_names)
     report["changed_names"].push_back({{"given", name.given}, {"written", name.written}});
   return to_text(report);
@@ -239,7 +313,25 @@ std::string complete_to_json(const CompleteReport& complete) {
   return to_text(describe_complete(complete));
 }
 std::string dual_to_json(const DualReport& dual) { return to_text(describe_dual(dual)); }
-std::string fit_to_json(const FitReport& fit) { return to_text(describe_fit(fit)); }
+std::string fit_to_json(const FitStageResult& fit) {
+  Json json = describe_fit(fit.fit.report);
+  if (fit.curving) json["curving"] = describe_curving(*fit.curving);
+  return to_text(json);
+}
+std::string curving_to_text(const CurvingReport& c) {
+  std::string text = fmt::format("  curved     {} of {} edges on the surface, by {:.4g} at most\n",
+                                 c.num_curved, c.num_surface_edges, c.max_offset);
+  if (!c.held_back.empty()) {
+    const HeldBackEdge& worst = c.held_back.front();
+    text += fmt::format(
+        "             {} held back for their elements, the worst {:.3g} off at ({:.6g}, {:.6g}, "
+        "{:.6g})\n",
+        c.held_back.size(), worst.distance, worst.position.x, worst.position.y, worst.position.z);
+  }
+  if (c.num_unmatched > 0)
+    text += fmt::format("             {} straight, with no surface near\n", c.num_unmatched);
+  return text;
+}
 std::string polycube_to_json(const PolycubeReport& polycube) {
   return to_text(describe_polycube(polycube));
 }

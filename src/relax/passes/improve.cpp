@@ -175,6 +175,11 @@ ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Contex
   const auto watch = context.watch();
   if (const auto issue = mesh.find_problem()) throw Error(ErrorCode::BadArgument, issue->message);
   if (mesh.num_hexes() == 0) return {};
+  if (mesh.mid_nodes) {
+    context.warn(
+        "the nodes of second order are left out: vertices move, and edges become straight");
+    mesh.mid_nodes.reset();
+  }
   return Improver(mesh, options, context).run();
 }
 

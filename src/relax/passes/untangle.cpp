@@ -8,17 +8,18 @@
 
 #include "relax/passes/finish.h"
 #include "relax/passes/sweep.h"
+#include "relax/state/targets.h"
 
 namespace hexwright::relax {
 namespace {
 
-std::vector<char> verts_of_inverted(const FitState& state, std::size_t& num_inverted) {
+std::vector<char> verts_of_tangled(const FitState& state, double low, std::size_t& num_tangled) {
   const auto quality = compute_scaled_jacobians(state.mesh);
   std::vector<char> region(state.num_verts(), 0);
-  num_inverted = 0;
+  num_tangled = 0;
   for (HexId h : quality.ids()) {
-    if (quality[h] > 0) continue;
-    ++num_inverted;
+    if (quality[h] > low) continue;
+    ++num_tangled;
     for (VertId v : state.mesh.hexes[h]) region[v.index()] = 1;
   }
   return region;
@@ -26,22 +27,26 @@ std::vector<char> verts_of_inverted(const FitState& state, std::size_t& num_inve
 
 }  // namespace
 
-std::size_t untangle(FitState& state, const Context& context) {
-  std::size_t num_inverted = 0, before = 0;
-  auto region = verts_of_inverted(state, num_inverted);
+std::size_t untangle(FitState& state, const UntangleOptions& options, const Context& context) {
+  std::size_t num_tangled = 0, before = 0;
+  auto region = verts_of_tangled(state, options.low, num_tangled);
   int rings = 1;
-  for (int round = 0; round < 40 && num_inverted > 0; ++round) {
+  for (int round = 0; round < options.max_rounds && num_tangled > 0; ++round) {
     context.check_cancelled();
     grow_vert_set(state, region, rings);
-    SweepOptions options;
-    options.untangle_share = round % 2 == 0 ? 0.1 : 0.01;
+    SweepOptions sweep;
+    sweep.untangle_share = options.shares[static_cast<std::size_t>(round) % options.shares.size()];
+    sweep.weight = options.weight;
     const LocalSweep local(state, region);
-    for (int s = 0; s < 10; ++s) local.run(state, options);
-    before = num_inverted;
-    region = verts_of_inverted(state, num_inverted);
-    if (num_inverted >= before) rings = std::min(rings + 1, 6);
+    for (int s = 0; s < options.sweeps; ++s) {
+      if (options.target) update_targets(state, *options.target, 0, region);
+      local.run(state, sweep);
+    }
+    before = num_tangled;
+    region = verts_of_tangled(state, options.low, num_tangled);
+    if (num_tangled >= before) rings = std::min(rings + 1, 6);
   }
-  return num_inverted;
+  return num_tangled;
 }
 
 }  // namespace hexwright::relax

@@ -28,7 +28,10 @@ struct TargetQuery {
 
 /// Copied as a whole to try a variant and go back.
 struct FitState {
-  explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) { rebuild(); }
+  explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) {
+    mesh.mid_nodes.reset();  // vertices are about to move
+    rebuild();
+  }
 
   static constexpr std::int32_t kInsideRegion = 1, kOutsideRegion = 2;  ///< tags with Side::Both
 

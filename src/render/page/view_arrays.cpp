@@ -61,6 +61,7 @@ class Packer {
     add_marked_faces();
     if (regions.size() > 1) add_regions(regions);
     for (std::size_t i = 0; i < options_.fields.size(); ++i) add_field(i);
+    if (mesh_.mid_nodes) add_mid_nodes();
     add_curves();
     if (options_.surface) add_surface();
     return std::move(arrays_);
@@ -102,6 +103,36 @@ class Packer {
     Numbers ids;
     for (VertId v : verts_) ids.push_back(static_cast<std::uint32_t>(v.value()));
     arrays_.emplace_back("vert_ids", pack_deltas(ids));
+  }
+
+  /// Numbered as the sample's hexes name them.
+  void add_mid_nodes() {
+    const MidNodes& nodes = *mesh_.mid_nodes;
+    IdVector<EdgeId, std::uint32_t> number(nodes.edges.size(), 0);
+    std::vector<Vec3> positions;
+    Numbers numbers;
+    numbers.reserve(12 * scene_.sample.hexes.size());
+    for (HexId h : scene_.sample.hexes)
+      for (std::size_t le = 0; le < 12; ++le) {
+        const EdgeId e = nodes.hex_to_edge[h][le];
+        if (number[e] == 0 && is_bent(h, le)) {
+          positions.push_back(nodes.edges[e]);
+          number[e] = static_cast<std::uint32_t>(positions.size());
+        }
+        numbers.push_back(number[e]);
+      }
+    if (positions.empty()) return;
+    arrays_.emplace_back("mid_positions", pack_positions(positions, view_box(mesh_, options_)));
+    arrays_.emplace_back("hex_mids", pack_deltas(numbers));
+  }
+
+  bool is_bent(HexId h, std::size_t le) const {
+    const auto corner = [&](std::size_t end) {
+      return mesh_.positions[mesh_.hexes[h][static_cast<std::size_t>(kHexEdges[le][end])]];
+    };
+    const Vec3 a = corner(0), b = corner(1);
+    const Vec3& node = mesh_.mid_nodes->edges[mesh_.mid_nodes->hex_to_edge[h][le]];
+    return norm_sq(node - 0.5 * (a + b)) > 1e-12 * norm_sq(b - a);
   }
 
   // The scene's lists run over the marked faces of all hexes, the page's over those of the sample.
@@ -209,6 +240,8 @@ double largest_distance(const ViewScene& scene) {
 
 Box3 view_box(const HexMesh& mesh, const ViewOptions& options) {
   Box3 box = bounding_box(mesh);
+  if (mesh.mid_nodes)
+    for (const Vec3& p : mesh.mid_nodes->edges) box.extend(p);
   if (options.surface) box.extend(options.surface->box());
   return box;
 }

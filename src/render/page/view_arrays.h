@@ -23,6 +23,8 @@ namespace hexwright {
 ///   vert_ids    m deltas of 4 bytes; where not all vertices are there
 ///   distance    f bytes: shares of the largest, 255 = it; with a surface only
 ///   field_I     n bytes: shares of field I's range
+///   mid_positions  as positions, of the nodes of curved edges; of second order only
+///   hex_mids    12 n deltas of 4 bytes: per edge of a hex the node + 1, 0 = straight
 ///   curves      deltas of 4 bytes: 2 per edge; curve_ids: deltas of 4 bytes, curve + 1
 ///   corners     deltas of 4 bytes
 ///   surface_positions, surface_tris   as positions; 3 deltas of 4 bytes per triangle

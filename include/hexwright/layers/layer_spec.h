@@ -1,0 +1,46 @@
+// What is asked of the wall layers of some patches.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hexwright {
+
+/// A length given in one of three ways.
+struct LayerLength {
+  enum class Unit {
+    World,     ///< the surface's own unit
+    Diagonal,  ///< a share of the surface's diagonal: "0.1%"
+    Edge       ///< a share of the wall's edges around a vertex: "0.05h"
+  };
+  double value = 0;
+  Unit unit = Unit::World;
+  friend bool operator==(const LayerLength&, const LayerLength&) = default;
+};
+
+/// `count` layers, the first of height `first` at the wall, each `growth` times as high as the one
+/// before.
+struct LayerSpec {
+  std::string pattern;  ///< of the names of patches
+  LayerLength first;
+  double growth = 1;
+  int count = 0;
+
+  /// Height of all layers together, in the unit of `first`.
+  double total() const;
+  /// Height of the first k layers over that of all.
+  double share_of(int k) const;
+};
+
+constexpr int kMaxLayers = 100;
+constexpr double kMaxLayerGrowth = 5;
+
+/// Reads "PATTERN=first:H,growth:R,count:N" with any three of first, growth, count and total; four
+/// must agree. Errors: BadArgument, with the keys that are missing or contradict each other.
+LayerSpec parse_layer_spec(const std::string& text);
+
+/// Whether a patch of this name is meant. A pattern is a glob (`*` and `?`), or else a regular
+/// expression (ECMAScript); either is to match the whole name. Errors: BadArgument for a bad one.
+bool matches_pattern(const std::string& pattern, const std::string& name);
+
+}  // namespace hexwright

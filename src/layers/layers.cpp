@@ -1,0 +1,202 @@
+// The driver, and the figures per patch.
+#include "hexwright/layers/layers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "hexwright/quality/hex_quality.h"
+
+#include "base/stage_log.h"
+#include "layers/grow.h"
+#include "layers/heights.h"
+#include "layers/split.h"
+
+namespace hexwright {
+namespace {
+
+using namespace layers;
+
+constexpr double kCovered = 0.5;   // least height over the wish where layers count as there
+constexpr double kReduced = 0.95;  // less is a reduction
+
+void require_valid(const HexMesh& mesh) {
+  if (const auto issue = mesh.find_problem()) throw Error(ErrorCode::BadArgument, issue->message);
+  const auto quality = compute_scaled_jacobians(mesh);
+  for (HexId h : quality.ids())
+    if (!(quality[h] > 0))
+      throw Error(ErrorCode::BadArgument,
+                  "a corner of the hex is inverted or flat; improve the mesh before it gets layers",
+                  fmt::format("hex {}", h.value()));
+}
+
+/// Sums over the quads of each patch.
+class Reporter {
+ public:
+  Reporter(const HexMesh& mesh, const WallPatches& patches, const SheetMesh& sheet,
+           const LayersOptions& options)
+      : mesh_(mesh), patches_(patches), sheet_(sheet), options_(options) {}
+
+  std::vector<PatchLayers> run() {
+    rows_.resize(patches_.name.size());
+    for (PatchId p : patches_.name.ids()) {
+      if (patches_.spec[p] == kNoSpec) continue;
+      rows_[p].patch = patches_.name[p];
+      rows_[p].count = options_.specs[static_cast<std::size_t>(patches_.spec[p])].count;
+      rows_[p].least_thickness = 1;
+    }
+    index_verts();
+    for (const LabeledQuad& quad : mesh_.labels.quads) add_area(quad);
+    for (const SheetHex& hex : sheet_.hexes) add_hex(hex);
+    for (const LeftOut& left : sheet_.left_out)
+      if (left.patch.is_valid() && rows_[left.patch].note.empty())
+        rows_[left.patch].note = left.why;
+    return finish();
+  }
+
+ private:
+  void index_verts() {
+    vert_of_.assign(sheet_.mesh.num_verts(), nullptr);
+    for (const SheetVert& vert : sheet_.verts) vert_of_[vert.inner] = &vert;
+  }
+
+  void add_area(const LabeledQuad& quad) {
+    if (patches_.spec_of(quad.patch) == kNoSpec) return;
+    rows_[quad.patch].area += layers::quad_area(mesh_.positions, quad.verts);
+  }
+
+  void add_hex(const SheetHex& hex) {
+    const LabeledQuad& quad = sheet_.mesh.labels.quads[static_cast<std::size_t>(hex.label)];
+    PatchLayers& row = rows_[quad.patch];
+    const double area = layers::quad_area(mesh_.positions, quad.verts);
+    double least = std::numeric_limits<double>::infinity(), mean = 0, first = 0;
+    const SheetVert* lowest = nullptr;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const SheetVert& vert = *vert_of_[sheet_.mesh.hexes[hex.hex][k]];
+      const double height = measure_height(sheet_, vert);
+      const double share = std::min(1.0, height / vert.wish);
+      mean += 0.25 * share;
+      first += 0.25 * height * options_.specs[static_cast<std::size_t>(vert.spec)].share_of(1);
+      if (share < least) {
+        least = share;
+        lowest = &vert;
+      }
+    }
+    row.mean_thickness += area * mean;
+    row.mean_first += area * first;
+    if (least >= kCovered) row.covered += area;
+    if (mean < kReduced) row.reduced[static_cast<std::size_t>(lowest->limit)] += area;
+    if (least < row.least_thickness) {
+      row.least_thickness = least;
+      row.least_at = mesh_.positions[lowest->wall];
+    }
+    rows_with_hexes_.resize(rows_.size(), 0);
+    rows_with_hexes_[quad.patch] += area;
+  }
+
+  /// With both sides of a surface walls, an area counts once for each.
+  std::vector<PatchLayers> finish() {
+    rows_with_hexes_.resize(rows_.size(), 0);
+    std::vector<PatchLayers> rows;
+    for (PatchId p : rows_.ids()) {
+      PatchLayers& row = rows_[p];
+      if (row.patch.empty() || !(row.area > 0)) continue;
+      const double sides = std::max(1.0, std::round(rows_with_hexes_[p] / row.area));
+      const double whole = sides * row.area;
+      const double with_layers = rows_with_hexes_[p];
+      if (with_layers < whole * (1 - 1e-9)) {
+        row.least_thickness = 0;
+        row.reduced[static_cast<std::size_t>(LayerLimit::Rim)] += whole - with_layers;
+      }
+      if (with_layers > 0) row.mean_first /= with_layers;
+      row.covered /= whole;
+      row.mean_thickness /= whole;
+      for (double& share : row.reduced) share /= whole;
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  const HexMesh& mesh_;
+  const WallPatches& patches_;
+  const SheetMesh& sheet_;
+  const LayersOptions& options_;
+  IdVector<VertId, const SheetVert*> vert_of_;
+  IdVector<PatchId, PatchLayers> rows_;
+  IdVector<PatchId, double> rows_with_hexes_;
+};
+
+std::string say_reasons(const PatchLayers& row) {
+  constexpr const char* kReasons[kNumLayerLimits] = {"other", "a facing wall", "short edges",
+                                                     "the shape of hexes", "no sheet"};
+  std::string text;
+  for (std::size_t k = 0; k < kNumLayerLimits; ++k)
+    if (row.reduced[k] >= 0.0005)
+      text += fmt::format("{} {} {:.1f}%", text.empty() ? "; lower by" : ",", kReasons[k],
+                          100 * row.reduced[k]);
+  return text;
+}
+
+}  // namespace
+
+void PatchLayers::to_world(const Similarity& frame) {
+  area = frame.length_to_world(frame.length_to_world(area));
+  least_at = frame.to_world(least_at);
+  mean_first = frame.length_to_world(mean_first);
+}
+
+void LayersReport::to_world(const Similarity& frame) {
+  for (PatchLayers& row : patches) row.to_world(frame);
+}
+
+double LayersReport::coverage() const {
+  double area = 0, covered = 0;
+  for (const PatchLayers& row : patches) {
+    area += row.area;
+    covered += row.area * row.covered;
+  }
+  return area > 0 ? covered / area : 1;
+}
+
+LayersResult add_layers(const HexMesh& mesh, const Target& target, const LayersOptions& options,
+                        const Context& context) {
+  const auto watch = context.watch();
+  const Stopwatch clock;
+  require_valid(mesh);
+  LayersResult result;
+  const WallPatches patches = find_wall_patches(mesh, target.frame, options, result.report);
+  context.progress("layers", 0);
+  SheetMesh sheet = insert_sheets(mesh, target.frame, patches, options);
+  if (!sheet.hexes.empty()) {
+    set_heights(sheet, target, options);
+    context.progress("layers", 0.2);
+    grow_sheet(sheet, target, options, context);
+  }
+  context.progress("layers", 0.9);
+  result.report.patches = Reporter(mesh, patches, sheet, options).run();
+  result.report.num_sheet_hexes = sheet.hexes.size();
+  SplitMesh split = split_sheet(sheet, options);
+  result.mesh = std::move(split.mesh);
+  result.layer = std::move(split.layer);
+  result.report.seconds = clock.seconds();
+  context.progress("layers", 1);
+  return result;
+}
+
+std::string layers_to_text(const LayersReport& report) {
+  std::string text;
+  for (const PatchLayers& row : report.patches) {
+    text += fmt::format(
+        "  layers on {}: {} on {:.1f}% of the area, height {:.1f}% of the wish (least {:.0f}% at "
+        "({:.4g} {:.4g} {:.4g})), first {:.4g}{}\n",
+        row.patch, row.count, 100 * row.covered, 100 * row.mean_thickness,
+        100 * row.least_thickness, row.least_at.x, row.least_at.y, row.least_at.z, row.mean_first,
+        say_reasons(row));
+    if (!row.note.empty()) text += "    " + row.note + "\n";
+  }
+  return text;
+}
+
+}  // namespace hexwright

@@ -1,0 +1,73 @@
+// Which quads of a mesh are walls, and what bounds them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hexwright/layers/layers.h"
+#include "hexwright/mesh/hex_adjacency.h"
+
+#include "relax/kernel/boundary_quads.h"
+
+namespace hexwright::layers {
+
+constexpr int kNoSpec = -1;
+
+/// The patches of a mesh beside what is asked of them.
+struct WallPatches {
+  /// Per labelled patch number: its name and the spec that its name matches first.
+  IdVector<PatchId, std::string> name;
+  IdVector<PatchId, int> spec;
+  int spec_of(PatchId p) const { return p.is_valid() ? spec[p] : kNoSpec; }
+};
+
+/// Names are those of the report: the mesh's own, else by place, else PATCH_3. Fills `unmatched`
+/// and `names`.
+WallPatches find_wall_patches(const HexMesh& mesh, const Similarity& frame,
+                              const LayersOptions& options, LayersReport& report);
+
+/// The boundary of one region: its faces towards nothing and towards other regions.
+struct Skin {
+  static constexpr int kNoLabel = -1;
+
+  std::int32_t region = 0;
+  std::vector<HexFace> faces;
+  IdVector<QuadId, std::array<VertId, 4>>
+      quads;                    ///< counter-clockwise seen from outside the region
+  IdVector<QuadId, int> label;  ///< index into labels.quads, or kNoLabel
+  IdVector<QuadId, int> spec;   ///< of walls; kNoSpec elsewhere
+  relax::BoundaryGraph graph;
+
+  bool is_wall(QuadId q) const { return spec[q] != kNoSpec; }
+  /// Between a wall and another quad.
+  bool is_rim(const relax::BoundaryGraph::Edge& edge) const {
+    return edge.num_quads == 2 && is_wall(edge.quads[0]) != is_wall(edge.quads[1]);
+  }
+};
+Skin make_skin(const HexMesh& mesh, const WallPatches& patches, std::int32_t region);
+
+/// Tags of the mesh's regions, ascending; {0} without tags.
+std::vector<std::int32_t> list_regions(const HexMesh& mesh);
+
+/// A wall, of quads that hang together, that gets no layers.
+struct LeftOut {
+  PatchId patch;  ///< at the place
+  std::string why;
+};
+
+/// Takes walls that no sheet can run under out of the skin: those that end in a patch that goes on
+/// flat or turns round, that touch themselves or other patches at a vertex only, or whose specs ask
+/// for different numbers of layers.
+std::vector<LeftOut> leave_out_walls(const HexMesh& mesh, const WallPatches& patches,
+                                     const LayersOptions& options, const Similarity& frame,
+                                     Skin& skin);
+/// Takes out the walls that hold any of these vertices.
+void leave_out_at(const std::vector<VertId>& verts, Skin& skin);
+
+/// Vertices of a hex's face as a quad whose normal points out of the region.
+inline Vec3 quad_normal(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q) {
+  return normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
+}
+double quad_area(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q);
+
+}  // namespace hexwright::layers

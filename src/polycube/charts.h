@@ -1,0 +1,23 @@
+// The faces of a polycube: which parts of a tet mesh's boundary look along which axis, and in which
+// planes they lie.
+#pragma once
+
+#include "polycube/axis_scales.h"
+#include "polycube/lattice.h"
+
+namespace hexwright::polycube {
+
+struct Faces {
+  Lattice lattice;  ///< facets and charts; tets still in the input's units, boundary vertices on
+                    ///< their planes; Chart::plane is an index into `planes` of its axis
+  AxisPlanes planes;
+  double extent = 0;  ///< longest edge of the bounding box
+};
+
+/// `spacing` (0: the least distance of two planes) says how small a chart may be that is kept.
+/// Boundary vertices up to a quarter of the way to the next plane, or 2% of the extent, off their
+/// chart's plane are put on it. Errors: BadGeometry naming the facet that is not axis-aligned or is
+/// farther off its plane.
+Faces find_faces(const TetMesh& polycube, double spacing);
+
+}  // namespace hexwright::polycube

@@ -1,0 +1,77 @@
+#include "polycube/choose_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "polycube/charts.h"
+#include "polycube/sample_map.h"
+
+namespace hexwright::polycube {
+namespace {
+
+// Sampled, completed and dualised as the mesh will be, but not mapped.
+std::size_t count_hexes(const TetMesh& object, const TetMesh& polycube, PolycubeOptions options,
+                        const Context& context) {
+  const Lattice lattice = choose_lattice(object, polycube, options);
+  const TetLocator locator(lattice.tets);
+  const BoundaryMap boundary(lattice);
+  const Grid sampled = sample_map({object, lattice, locator, boundary}, options, context);
+  const Grid grid = complete(sampled, options.complete, context).grid;
+  return make_dual(grid, options, context).mesh.num_hexes();
+}
+
+}  // namespace
+
+Lattice choose_lattice(const TetMesh& object, const TetMesh& polycube, PolycubeOptions& options) {
+  const Faces faces = find_faces(polycube, options.spacing);
+  if (options.spacing > 0 || options.min_level >= options.max_level) {
+    const double spacing = options.spacing > 0 ? options.spacing : geometric_spacing(faces.planes);
+    return place_on_lattice(faces, even_scales(faces.planes, spacing), spacing);
+  }
+  const auto candidates = suit_scales(faces.planes, object, faces.lattice.tets, options);
+  const std::size_t num_folded = count_nonpositive(faces.lattice.tets);
+  for (std::size_t i = 0;; ++i) {
+    const ScaleCandidate& c = candidates[i];
+    Lattice lattice = place_on_lattice(faces, c.scales, c.spacing);
+    if (i + 1 < candidates.size() && count_nonpositive(lattice.tets) > num_folded) continue;
+    options.min_level = std::max(0, options.min_level - c.depth);
+    options.max_level -= c.depth;
+    return lattice;
+  }
+}
+
+// Hexes go with the inverse cube of the stretch, in steps where the lattice or the levels jump.
+double find_stretch(const TetMesh& object, const TetMesh& polycube, const PolycubeOptions& options,
+                    const Context& context) {
+  constexpr int kMostTries = 8;
+  constexpr double kEnough = 0.92, kTooMany = 1.02;  // of the hexes wanted
+  constexpr double kCoarsest = 0.9;
+  PolycubeOptions trial = options;
+  double best = options.max_stretch, least_miss = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostTries; ++i) {
+    context.check_cancelled();
+    const double share = static_cast<double>(count_hexes(object, polycube, trial, context)) /
+                         static_cast<double>(options.target_hexes);
+    // A mesh that is too large misses twice as badly.
+    const double miss = share > kTooMany ? 2 * std::log(share) : std::abs(std::log(share));
+    if (miss < least_miss) {
+      least_miss = miss;
+      best = trial.max_stretch;
+    }
+    if (share > kEnough && share <= kTooMany) break;
+    trial.max_stretch =
+        std::min(kCoarsest, trial.max_stretch * std::clamp(std::cbrt(share / 0.97), 0.25, 4.0));
+  }
+  return best;
+}
+
+DualResult make_dual(const Grid& grid, const PolycubeOptions& options, const Context& context) {
+  const bool is_paired =
+      options.complete.pairing == Pairing::Blocks || options.complete.pairing == Pairing::Octree;
+  DualOptions dual_options;
+  dual_options.mode = is_paired ? DualMode::Blocks : DualMode::Sheets;
+  return build_dual(grid, dual_options, context);
+}
+
+}  // namespace hexwright::polycube

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Runs the commands that an example's README shows, and looks at what they leave.
+
+Usage: examples_test.py HEXWRIGHT SOURCE_DIR EXAMPLE. Exit code 77 (skipped) when what the example needs is not installed.
+"""
+import importlib.util
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SKIPPED = 77
+#: Modules and programs; the picture; what is printed, and between which values the number in it lies.
+EXAMPLES = {
+    "calculix": (["numpy", "matplotlib"], ["ccx"], "bracket.png", r"von Mises stress ([0-9.]+)", (95, 125)),
+    "scikit-fem": (["skfem", "meshio", "matplotlib"], [], "heat.png", r"heat flow ([0-9.]+)", (714, 715)),
+}
+
+
+def main() -> int:
+    hexwright, source, name = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
+    modules, programs, picture, pattern, (low, high) = EXAMPLES[name]
+    missing = [m for m in modules if importlib.util.find_spec(m) is None] + [p for p in programs if not shutil.which(p)]
+    if missing:
+        print(f"skipped: {missing[0]} is not installed")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as temporary:
+        examples = Path(temporary) / "examples"
+        shutil.copytree(source / "examples", examples)
+        commands = re.search(r"```\n(.*?)```", (examples / name / "README.md").read_text(), re.S)[1].splitlines()
+        output = ""
+        for command in commands:
+            words = shlex.split(command)
+            words[0] = {"hexwright": hexwright, "python3": sys.executable}.get(words[0], words[0])
+            done = subprocess.run(words, cwd=examples / name, capture_output=True, text=True, timeout=300)
+            assert done.returncode == 0, f"{command}\n{done.stdout[-3000:]}{done.stderr[-3000:]}"
+            output += done.stdout
+        value = float(re.search(pattern, output)[1])
+        assert (examples / name / picture).stat().st_size > 10000
+    print(f"{name}: {value}")
+    assert low < value < high, output
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
