@@ -22,7 +22,9 @@ constexpr double kEdgeRoom = 1.05;
 /// Aim a little lower: edges do not follow the lattice exactly.
 constexpr double kEdgeMargin = 0.985;
 constexpr double kLeastStep = 0.6;
-constexpr int kMostEdgeRuns = 3;
+/// Edges that are shorter than this share of what is allowed are worth another try.
+constexpr double kEnough = 0.85;
+constexpr int kMostEdgeRuns = 4;
 
 MeshOptions with_size(const MeshOptions& options, double share) {
   MeshOptions sized = options;
@@ -56,17 +58,31 @@ MeshResult say_warnings(MeshResult&& result, const Context& context) {
   return std::move(result);
 }
 
+/// The share of the size to try after edges were too long at `too_coarse`, and short enough, if
+/// ever, at `fine`.
+double next_scale(double too_coarse, std::optional<double> fine, double too_long_by) {
+  if (fine) return std::sqrt(too_coarse * *fine);
+  return too_coarse * std::max(kLeastStep, kEdgeMargin / too_long_by);
+}
+
 MeshResult shorten_edges(const Target& target, const MeshOptions& options, Run run,
                          const Context& context) {
   const double share = share_of_size(options, target);
   const double longest = target.frame.length_to_world(kEdgeRoom * share * target.diagonal());
   MeshResult best = run_quietly(run, options, context);
-  double scale = 1;
-  for (int runs = 1; runs < kMostEdgeRuns && best.edges.high > longest; ++runs) {
-    scale *= std::max(kLeastStep, kEdgeMargin * longest / best.edges.high);
+  double too_coarse = 1, too_long_by = best.edges.high / longest;
+  std::optional<double> fine;
+  if (too_long_by <= 1) return say_warnings(std::move(best), context);
+  for (int runs = 1; runs < kMostEdgeRuns; ++runs) {
+    const double scale = next_scale(too_coarse, fine, too_long_by);
     MeshResult next = run_quietly(run, with_size(options, scale * share), context);
-    if (is_worse(next, best) || next.mesh.num_hexes() == 0) break;
-    best = std::move(next);
+    const double ratio = next.edges.high / longest;
+    const bool is_usable = next.mesh.num_hexes() > 0 && !is_worse(next, best);
+    if (is_usable && (ratio <= 1 || !fine)) best = std::move(next);
+    if (ratio <= 1) fine = scale;
+    if (ratio > 1) too_coarse = scale, too_long_by = ratio;
+    // What a smaller size meets well may be met by one in between, with far fewer hexes.
+    if (!is_usable || (fine && best.edges.high > kEnough * longest)) break;
   }
   if (best.edges.high > longest)
     context.warn(fmt::format("95% of the edges are up to {:.3g} times as long as --size asks for",

@@ -190,7 +190,7 @@ class Mesh(CliTest):
 
     def test_contradicting_sizes_are_refused_by_name(self):
         for given in (["--size", "0.2", "--max-size", "0.1"], ["--cells", "100", "--size", "0.2"],
-                      ["--min-size", "1", "--refine", "ball:0,0,0,1=0.1"], ["--box", "0,0,0,1,1,1", "--side", "inside"]):
+                      ["--min-size", "1", "--refine", "ball:0,0,0,1=0.1"], ["--size", "0.1", "--max-level", "2"], ["--box", "0,0,0,1,1,1", "--side", "inside"]):
             done = self.run_binary("mesh", self.cube, "-o", self.path / "a.vtu", *given, expect=2)
             for option in given[::2]:
                 self.assertIn(option, done.stderr)

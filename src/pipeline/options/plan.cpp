@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "hexwright/base/error.h"
 #include "hexwright/pipeline/size_plan.h"
 
 namespace hexwright {
@@ -51,6 +54,12 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   SizePlan sizes = plan_sizes(wishes, target, context);
   plan.sizes = std::move(sizes.field);
   if (auto& sized = sizes.domain) {
+    const bool is_level_given = wishes.loop_extra_levels == 0;
+    if (wishes.sizes.size.is_given() && is_level_given && sized->level > wishes.sizing.max_level)
+      throw Error(
+          ErrorCode::BadArgument,
+          fmt::format("--size needs cells of level {}, but --max-level is {}; leave one out",
+                      sized->level, wishes.sizing.max_level));
     plan.sizing.domain = std::move(sized->domain);
     // The loop sees where that is too coarse: cells of two sizes cost more than they save.
     if (wishes.sizes.size.is_given() && wishes.fit.carve.side == Side::Inside) {

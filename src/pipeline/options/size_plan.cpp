@@ -216,9 +216,10 @@ double lattice_edge(const MeshOptions& wishes, const Target& target, const WallW
 MeshOptions resolve_sizes(const MeshOptions& wishes, const TriMesh& surface) {
   MeshOptions options = wishes;
   const SizeWishes& sizes = wishes.sizes;
+  if (!sizes.any() && !sizes.has_domain()) return options;
+  if (surface.find_problem()) return options;  // its preparation says so
   const double diagonal = bounding_box(surface).diagonal();
   check_size_wishes(sizes, wishes.fit.carve.side, diagonal);
-  if (!sizes.any() && !sizes.has_domain()) return options;
   options.mean_share = 0;
   if (sizes.size.is_given() || sizes.cells > 0) options.even.transition_cost = 0;
   return resolve_tolerance(std::move(options), diagonal);
