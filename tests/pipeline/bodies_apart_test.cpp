@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/option_table.h"
 
 #include "helpers.h"
 #include "solids.h"
@@ -68,6 +69,17 @@ TEST(BodiesApart, FarBodiesShareOneGridAndARowOfNeighboursNeedsTwo) {
       joined({box_surface({0, 0, 0}, {1, 1, 1}), box_surface({2, 0, 0}, {3, 1, 1})});
   EXPECT_EQ(mesh_of(far).mesh.hexes.raw(), mesh_of(far, never).mesh.hexes.raw());
   EXPECT_TRUE(mesh_of(far).mesh.region.empty());
+}
+
+TEST(BodiesApart, GapIsAnOptionWithZeroForNever) {
+  MeshOptions options;
+  for (NamedOption& row : make_option_table(options))
+    if (row.name == "gap") {
+      row.set("3%");
+      EXPECT_DOUBLE_EQ(options.gap, 0.03);
+      row.set("0");
+      EXPECT_EQ(options.gap, 0);
+    }
 }
 
 TEST(BodiesApart, NamesAreThoseOfTheWhole) {

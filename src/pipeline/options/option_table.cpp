@@ -159,6 +159,23 @@ void mark_tolerance(OptionTable& table, MeshOptions& options) {
       };
 }
 
+NamedOption gap_row(double& gap) {
+  NamedOption row = share_row(
+      {"gap",
+       "Bodies nearer to each other than this share of the diagonal, or touching, are meshed each "
+       "by itself (inside only); 0 = never"},
+      gap);
+  row.allowed = "0, or a share of the diagonal below 100%";
+  row.fallback = "twice the tolerance";
+  row.set = [&gap, set = std::move(row.set)](const std::string& text) {
+    if (text == "0")
+      gap = 0;
+    else
+      set(text);
+  };
+  return row;
+}
+
 /// A level asked for binds the loop too.
 void let_level_bind_loop(OptionTable& table, MeshOptions& options) {
   for (NamedOption& row : table)
@@ -183,12 +200,7 @@ OptionTable make_option_table(MeshOptions& options) {
        "given axes"},
       options.target.placement, kPlacementNames));
   append(table, prepare_rows(options.target.prepare));
-  table.push_back(share_row(
-      {"gap",
-       "Bodies nearer to each other than this share of the diagonal, or touching, are meshed each "
-       "by itself (inside only); 0 = never"},
-      options.gap));
-  table.back().fallback = "twice the tolerance";
+  table.push_back(gap_row(options.gap));
   table.push_back(
       number_row({"transition-cost",
                   "What a cell beside another level counts more than one that is not, when levels "
