@@ -45,6 +45,8 @@ class MeshOptions(TypedDict, total=False):
     """Solids that overlap or touch: united; those that only touch kept apart; or all surfaces left as they are. Default: unite."""
     min_part: float | str
     """Parts no longer than this share of the diagonal are left out, with a warning, and voids filled. Default: the tolerance."""
+    gap: float | str
+    """Bodies nearer to each other than this share of the diagonal, or touching, are meshed each by itself (inside only); 0 = never. Default: twice the tolerance."""
     transition_cost: float
     """What a cell beside another level counts more than one that is not, when levels are evened out; 0 = never even out. Default: 5."""
     rounds: int
@@ -63,9 +65,11 @@ class MeshOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    lift_goal: float
+    """While the least scaled Jacobian is lower, vertices may leave the surface within the tolerance; 0 = never. Default: 0.5."""
     order: int
     """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
-    layers: str | list[str]
+    layers: str | Sequence[str]
     """Wall layers on the patches of this name (glob or regular expression, * for all): any three of first, growth, count and total; lengths in the surface's unit, as 1% of the diagonal or as 0.05h of the wall's edges; repeatable. Default: none."""
     layers_min_coverage: float
     """Least share of the walls' area with all layers at half of their height or more; less fails the gate. Default: 0."""
@@ -123,8 +127,12 @@ class FitOptions(TypedDict, total=False):
     """Where a layer of hexes is put under the boundary. Default: selective."""
     vertices: Literal["balanced", "on-surface"]
     """Vertices of curved patches: beside the surface, so that quads err to both sides of it, or on it. Default: balanced."""
+    lift_goal: float
+    """While the least scaled Jacobian is lower, vertices may leave the surface within the tolerance; 0 = never. Default: 0.5."""
     order: int
     """Order of the elements: 2 gives edges a node on the surface, and puts all vertices on it. Default: 1."""
+    tolerance: float | str
+    """How far vertices may leave the surface for the least scaled Jacobian's sake, as a share of the bounding box's diagonal. Default: 0.5%."""
     feature_angle: float
     """Edges whose faces turn by more are sharp, degrees. Default: 50."""
 
