@@ -299,8 +299,10 @@ class Fitter {
 
   // Back to the carved mesh, with sheets where the mapped curves need them. False when that is one
   // layer under everything, as on shapes whose curves separate nothing: that is the scaffold, which
-  // is fitted already.
+  // is fitted already; and where that layer has another boundary than the carved mesh, as beside a
+  // domain's side that is nearer than a cell: marks cannot go back from it.
   bool pad(const FitState& carved, Attempt& a) {
+    if (carved.quads != a.state.quads) return false;
     SelectivePadding padded = choose_sheets(carved, a.state, a.boundary, target(a), context_);
     if (padded.report.num_groups == 1 && padded.state.mesh.num_hexes() >= a.state.mesh.num_hexes())
       return false;

@@ -10,6 +10,7 @@
 
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
+#include "hexwright/io/surface_io.h"
 
 #include "helpers.h"
 #include "pipeline/loop/loop.h"
@@ -319,6 +320,18 @@ TEST(MeshSurface, RandomParallelepipedsAreMeshedValidly) {
     expect_valid(r);
     EXPECT_NEAR(r.verdict.quality.total_volume / det(a, b, c), 1, 0.03);
   }
+}
+
+// The domain's sides are nearer than a cell there: the layer under the boundary ends on them.
+TEST(MeshSurface, OutsideInANarrowBoxIsMeshedWithoutTheSheetsThatFindNoRoom) {
+  MeshOptions options;
+  options.fit.carve.side = Side::Outside;
+  options.max_rounds = 0;
+  const TriMesh surface = read_surface(test::bundled("models/cube_minus_sphere.obj")).mesh;
+  const MeshResult result = mesh_surface(surface, options, {});
+  EXPECT_TRUE(result.verdict.topology.is_valid());
+  EXPECT_EQ(result.verdict.quality.num_inverted, 0u);
+  EXPECT_GT(result.mesh.num_hexes(), 100u);
 }
 
 }  // namespace

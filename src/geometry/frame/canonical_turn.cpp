@@ -16,6 +16,11 @@ namespace {
 /// triangles of a turned surface run in another order.
 constexpr double kAlike = 1e-9;
 
+/// Axes that point against the signs of the moments. Which of the attitudes it is makes no
+/// difference in principle; of five that were tried, this one had the fewest hexes over 50 models,
+/// and kept slender rods whole.
+constexpr int kReversed[] = {0, 2};
+
 using Matrix = std::array<std::array<double, 3>, 3>;
 using Tensor = std::array<Matrix, 3>;
 
@@ -138,7 +143,9 @@ Rotation find_canonical_turn(const TriMesh& surface) {
     std::vector<double> key = key_of(moments, order);
     if (is_greater(key, best_key)) best = order, best_key = std::move(key);
   }
-  return best.rotation();
+  Rotation turn = best.rotation();
+  for (const int axis : kReversed) turn.axes[static_cast<std::size_t>(axis)] *= -1.0;
+  return turn;
 }
 
 }  // namespace hexwright
