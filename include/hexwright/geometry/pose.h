@@ -21,7 +21,7 @@ Rotation find_pose(const TriMesh& surface);
 TriMesh turn_surface(const TriMesh& surface, const Rotation& pose, double tolerance);
 
 /// The turn by multiples of 90 degrees into an attitude that depends on the shape alone: the
-/// longest extent along x, the shortest along z, and signs by the third moments of the area, then
+/// longest extent along z, the shortest along y, and signs by the third moments of the area, then
 /// by the edges and vertices of the triangulation. A part and its copy turned by 90 degrees come to
 /// lie alike, every bit the same. Linear; the same for
 /// any order of triangles.
