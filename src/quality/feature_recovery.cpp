@@ -115,7 +115,7 @@ std::vector<char> find_recovered(const std::vector<Segment>& edges, const CurveS
   parallel_for(
       edges.size(),
       [&](std::size_t e) {
-        const auto& [a, b] = edges[e];
+        const Vec3 &a = edges[e][0], &b = edges[e][1];
         const Vec3 direction = normalized(b - a);
         tree.visit_box(inflated_box(a, b, tolerance), [&](std::size_t i) {
           if (std::abs(dot(direction, samples.tangents[i])) >= kMinCosine &&

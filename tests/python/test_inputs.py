@@ -125,7 +125,7 @@ def test_unknown_and_wrong_options_are_said(cube):
     with pytest.raises(TypeError, match="no option 'max_lvl'; did you mean 'max_level'"):
         hw.mesh(*cube, max_lvl=3)
     for options, words in (({"tolerance": 5}, "tolerance: '5' is not a share"), ({"rounds": 2.5}, "no whole number"),
-                           ({"pairing": "all"}, "pairing: 'all' is none of"), ({"tolerance": [1]}, "list is neither"),
+                           ({"pairing": "all"}, "pairing: 'all' is none of"), ({"tolerance": [1]}, "'1' is not a share"),
                            ({"tolerance": np.array([0.1, 0.2])}, "ndarray is neither"),
                            ({"threads": -1}, "threads: -1"), ({"max_level": True}, "no whole number"),
                            ({"tolerance": np.nan}, "not a share"), ({"min_level": 5, "max_level": 4}, "level")):

@@ -1,6 +1,6 @@
 // The component's one function. Whatever goes wrong in OpenCASCADE, which throws exceptions of its
 // own and may raise signals on damaged geometry, becomes an Error.
-#define OCC_CONVERT_SIGNALS
+#define OCC_CONVERT_SIGNALS  // NOLINT(readability-identifier-naming): its own name
 #include "hexwright/cad/read_cad.h"
 
 #include <array>
