@@ -64,8 +64,11 @@ void run(const MeshCommand& cmd, Program& program) {
   require_mesh_format(cmd.output, cmd.elements, cmd.options.order);
   const Context context = program.console.start(cmd.input);
   MeshOptions options = cmd.options;
-  // Grid files have no axes of their own.
-  if (!cmd.grid.empty()) options.target.placement = Placement::AsGiven;
+  // Grid files hold one grid, and have no axes of their own.
+  if (!cmd.grid.empty()) {
+    options.target.placement = Placement::AsGiven;
+    options.gap = 0;
+  }
   std::optional<CadInput> cad;
   TriMesh surface;
   if (is_cad_file(cmd.input)) {

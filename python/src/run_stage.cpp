@@ -8,10 +8,12 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <utility>
 
 #include "hexwright/base/parallel.h"
+
+#include "stage_threads.h"
 
 namespace hexwright::python {
 namespace {
@@ -96,7 +98,8 @@ std::vector<std::string> run_stage(const RunSettings& settings,
                                    const std::function<void(const Context&)>& work) {
   Run run(!settings.progress.is_none());
   std::exception_ptr callers;  // of the signal's handler or of progress
-  std::thread worker([&] { run.work(work, settings.threads); });
+  std::optional<StageThreadLease> worker(std::in_place);
+  worker->start([&] { run.work(work, settings.threads); });
   for (bool is_done = false; !is_done;) {
     Run::Events events;
     {
@@ -113,7 +116,7 @@ std::vector<std::string> run_stage(const RunSettings& settings,
   }
   {
     const nb::gil_scoped_release released;
-    worker.join();
+    worker.reset();
   }
   if (callers) std::rethrow_exception(callers);
   if (run.failure()) std::rethrow_exception(run.failure());

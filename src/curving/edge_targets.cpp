@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 namespace hexwright::curving {
@@ -149,6 +150,7 @@ EdgeTargets find_edge_targets(const HexMesh& mesh, const CurvingTarget& target) 
       64);
   if (!target.exact) return targets;
   for (EdgeId e : labels.ids()) {  // one by one, as an exact shape asks for
+    check_cancelled();
     if (targets.kind[e] != EdgeKind::Curve && targets.kind[e] != EdgeKind::Surface) continue;
     const Chord chord = {mesh.positions[verts[e][0]], mesh.positions[verts[e][1]]};
     const Vec3 near = chord.middle() + targets.offset[e];

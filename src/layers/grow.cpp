@@ -120,8 +120,8 @@ class Grower {
   /// back to the surface in the end.
   void place_rim(const SheetVert& vert) {
     const VertId v = vert.inner;
-    const bool is_plane = state_.move[v] == MoveIn::Plane;
-    if (is_plane) return;
+    const bool is_held = state_.move[v] == MoveIn::Plane || state_.move[v] == MoveIn::Line;
+    if (is_held) return;
     is_bent_rim_.push_back(v);
     state_.move[v] = MoveIn::Line;
     state_.axis[v] = normalized(vert.offset);

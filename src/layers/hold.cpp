@@ -92,6 +92,8 @@ class Holder {
       fix(v);
     } else if (vert.planes.size() == 2) {
       move_along(v, MoveIn::Line, normalized(cross(vert.planes[0], vert.planes[1])));
+    } else if (!vert.planes.empty() && !vert.is_flat) {
+      fix(v);  // a side of the domain meets a patch: it would be drawn off one of them
     } else if (vert.is_flat) {
       move_along(v, MoveIn::Plane, vert.normal);
     } else {

@@ -49,7 +49,10 @@ class Inserter {
     };
     result_.left_out.push_back(
         {patch_at(verts.front()),
-         fmt::format("no sheet of hexes fits at {} vertices", verts.size())});
+         fmt::format(
+             "no sheet of hexes fits at {} vertices; refine there, or leave the patch out of "
+             "the layers",
+             verts.size())});
     leave_out_at(verts, skin_);
     return false;
   }

@@ -76,7 +76,12 @@ class WallCheck {
   }
   std::string name_of(QuadId q) const {
     const PatchId p = patch_of(q);
-    return p.is_valid() ? patches_.name[p] : "the outer boundary";
+    return p.is_valid() ? "'" + patches_.name[p] + "'" : "a side of the domain";
+  }
+  /// The sides of a domain have no layers.
+  std::string remedy(QuadId other) const {
+    return patch_of(other).is_valid() ? "give layers to " + name_of(other) + " too"
+                                      : "move that side, or mesh one side of the surface only";
   }
   void add(QuadId q, std::string why) {
     faults_.try_emplace(wall_of(q), LeftOut{patch_of(q), std::move(why)});
@@ -101,21 +106,20 @@ class WallCheck {
       return options_.specs[static_cast<std::size_t>(skin_.spec[q])].count;
     };
     if (count(a) == count(b)) return;
-    add(a, fmt::format("'{}' asks for {} layers and '{}' for {}, but they meet at {}, where one "
+    add(a, fmt::format("{} asks for {} layers and {} for {}, but they meet at {}, where one "
                        "sheet runs; give both the same count",
                        name_of(a), count(a), name_of(b), count(b), place(v)));
   }
 
   void check_rim(const BoundaryGraph::Edge& edge, QuadId wall, QuadId other) {
     if (is_shared_[edge.a] || is_shared_[edge.b]) {
-      add(wall, fmt::format("the wall ends at {}, where two regions are; give layers to '{}' too",
-                            place(edge.a), name_of(other)));
+      add(wall, fmt::format("the wall ends at {}, where two regions are; {}", place(edge.a),
+                            remedy(other)));
       return;
     }
     if (opening(edge, wall, other) <= kWidestEnd) return;
-    add(wall, fmt::format("the mesh is wider than a corner where the wall meets '{}' at {}; give "
-                          "layers to it too",
-                          name_of(other), place(edge.a)));
+    add(wall, fmt::format("the mesh is wider than a corner where the wall meets {} at {}; {}",
+                          name_of(other), place(edge.a), remedy(other)));
   }
 
   /// The angle at the edge on the mesh's side.

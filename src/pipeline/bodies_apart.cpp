@@ -185,6 +185,17 @@ void append(ExactReport& to, const ExactReport& from) {
   to.max_after = std::max(to.max_after, from.max_after);
 }
 
+/// Records of a part as shares of the whole's diagonal, which is `ratio` parts long.
+void scale_shares(MeshResult& part, double ratio) {
+  for (RoundRecord& round : part.rounds) {
+    round.max_distance /= ratio;
+    round.mean_distance /= ratio;
+  }
+  if (!part.exact) return;
+  part.exact->max_before /= ratio;
+  part.exact->max_after /= ratio;
+}
+
 void append_records(MeshResult& all, MeshResult&& part) {
   const BoundaryLabels& labels = all.mesh.labels;
   append(all.fit, std::move(part.fit), all.mesh.num_hexes(),
@@ -205,6 +216,23 @@ std::string group_of(const std::string& name, const std::set<std::string>& group
   return groups.contains(base) ? base : name;
 }
 
+/// "inlet-wall" of "inlet-wall.2".
+std::string unnumbered_curve(const std::string& name, const std::set<std::string>& groups) {
+  const auto ends_with_group = [&](const std::string& text) {
+    return std::ranges::any_of(
+        groups, [&](const std::string& group) { return text.ends_with("-" + group); });
+  };
+  const std::string base = name.substr(0, name.rfind('.'));
+  return !ends_with_group(name) && ends_with_group(base) ? base : name;
+}
+
+template <class Names>
+void number_again(Names& names) {
+  std::vector<std::string> texts = names.raw();
+  number_repeated(texts);
+  names = Names(std::move(texts));
+}
+
 std::string name_of_part(const HexMesh& mesh) {
   return mesh.region_names.empty() ? "" : mesh.region_names.back();
 }
@@ -215,6 +243,7 @@ void name_by_groups(const TriMesh& surface, HexMesh& mesh) {
   const std::set<std::string> groups(surface.group_names.begin(), surface.group_names.end());
   BoundaryLabels& labels = mesh.labels;
   for (std::string& name : labels.patch_names) name = group_of(name, groups);
+  for (std::string& name : labels.curve_names) name = unnumbered_curve(name, groups);
   if (labels.patch_names.empty())
     labels.patch_names.resize(count_ids(labels.quads, &LabeledQuad::patch, 0), name_of_part(mesh));
 }
@@ -256,13 +285,14 @@ void keep_own_segments(const TriMesh& surface, std::vector<std::array<Vec3, 2>>&
 
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
   const TriMesh& surface = target.surface();
-  if (gap < 0) return {surface};
+  if (gap < 0) return {};
   const std::vector<ClosedPiece> bodies = find_bodies(surface);
   std::size_t num_tris = 0;
   for (const ClosedPiece& body : bodies) num_tris += body.mesh.num_tris();
-  if (num_tris != surface.num_tris()) return {surface};
+  if (bodies.empty() || num_tris != surface.num_tris()) return {};
   const std::vector<std::size_t> body_to_part = choose_parts(find_neighbours(bodies, gap));
   std::vector<TriMesh> parts(std::ranges::max(body_to_part) + 1);
+  if (parts.size() < 2) return {};
   for (std::size_t b = 0; b < bodies.size(); ++b)
     append(parts[body_to_part[b]], bodies[b], surface);
   for (TriMesh& part : parts) part = to_world(std::move(part), target.frame);
@@ -293,18 +323,19 @@ MeshOptions plan_part(const MeshOptions& options, const Target& whole, const Tri
   return part;
 }
 
-MeshResult join_parts(std::vector<MeshResult>&& parts, const TriMesh& surface) {
+MeshResult join_parts(std::vector<MeshResult>&& parts, const Target& whole) {
+  for (MeshResult& part : parts)
+    scale_shares(part, whole.frame.length_to_world(whole.diagonal()) / part.diagonal);
   MeshResult all = std::move(parts.front());
   HexMesh first = std::exchange(all.mesh, {});
   for (std::size_t k = 0; k < parts.size(); ++k) {
     HexMesh& mesh = k == 0 ? first : parts[k].mesh;
-    name_by_groups(surface, mesh);
+    name_by_groups(whole.surface(), mesh);
     if (k > 0) append_records(all, std::move(parts[k]));
     append(all.mesh, mesh, static_cast<std::int32_t>(k), name_of_part(mesh));
   }
-  std::vector<std::string> names = all.mesh.labels.patch_names.raw();
-  number_repeated(names);
-  all.mesh.labels.patch_names = IdVector<PatchId, std::string>(std::move(names));
+  number_again(all.mesh.labels.patch_names);
+  number_again(all.mesh.labels.curve_names);
   return all;
 }
 

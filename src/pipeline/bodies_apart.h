@@ -9,8 +9,8 @@
 namespace hexwright {
 
 /// The surface in parts, in world coordinates: bodies within `gap` (unit coordinates) of each other
-/// are in different parts, all others together. One part when none are, or when some triangles
-/// belong to no body.
+/// are in different parts, all others together. None when all can be meshed together, or when some
+/// triangles belong to no body.
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap);
 
 /// How near bodies must be to each other to be meshed apart, in the target's coordinates; negative
@@ -22,9 +22,10 @@ double plan_gap(const MeshOptions& options, const Target& target);
 /// part.
 MeshOptions plan_part(const MeshOptions& options, const Target& whole, const TriMesh& part);
 
-/// One mesh of the parts, a region each, with their records together; grid, sizing, pose and best
-/// round are those of the first. Patches are numbered over all parts ("wall.1", "wall.2") by the
+/// One mesh of the parts, a region each, with their records together; grid, sizing, completion,
+/// dual, pose and best round are those of the first. Shares of the parts' diagonals become shares
+/// of the whole's. Patches and curves are numbered over all parts ("wall.1", "wall.2") by the
 /// groups of the whole surface.
-MeshResult join_parts(std::vector<MeshResult>&& parts, const TriMesh& surface);
+MeshResult join_parts(std::vector<MeshResult>&& parts, const Target& whole);
 
 }  // namespace hexwright

@@ -47,7 +47,9 @@ CompleteResult complete_within_budget(const RoundInput& input, MeshResult& resul
     if (completed.grid.num_cells() <= input.plan.budgets.background) return completed;
     const std::string exceeded = say_exceeded(
         Budget::Background, static_cast<double>(completed.grid.num_cells()), input.plan.budgets);
-    if (result.sizing.reached_level <= sizing.min_level || sizes.is_exact)
+    if (sizes.is_exact)
+      throw Error(ErrorCode::OutOfResources, exceeded + ", or ask for a larger size");
+    if (result.sizing.reached_level <= sizing.min_level)
       throw Error(
           ErrorCode::OutOfResources,
           fmt::format("{}, or lower the minimum level, which is {}", exceeded, sizing.min_level));
@@ -96,6 +98,7 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   MeshResult result;
   result.surface = target.diagnosis;
   result.pose = target.frame.pose;
+  result.diagonal = target.frame.length_to_world(target.diagonal());
   result.stages = target.stages;
   const StagePlan stages = plan(options, target, context);
   const RoundInput input{target, options, stages, context};
@@ -129,7 +132,7 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
 /// Bodies that are too near to each other for one grid each by itself, then judged together.
 MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const Context& context) {
   const std::vector<TriMesh> parts = split_near_bodies(target, plan_gap(options, target));
-  if (parts.size() < 2) return mesh_target(target, options, context);
+  if (parts.empty()) return mesh_target(target, options, context);
   std::vector<MeshResult> results;
   for (const TriMesh& part : parts) {
     context.check_cancelled();
@@ -137,12 +140,12 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
     results.push_back(
         mesh_target(make_target(part, plan_target(wishes), context), wishes, context));
   }
-  MeshResult result = join_parts(std::move(results), target.surface());
+  MeshResult result = join_parts(std::move(results), target);
+  result.diagonal = target.frame.length_to_world(target.diagonal());
   result.surface = target.diagnosis;
   result.surface.notes.push_back(fmt::format(
       "bodies that touch or nearly touch are meshed each by itself, in {} groups", parts.size()));
-  result.verdict = judge(to_unit(result.mesh, target.frame), target,
-                         plan(options, target, context).judge, context);
+  result.verdict = judge(to_unit(result.mesh, target.frame), target, plan_judge(options), context);
   for (const std::string& failure : result.verdict.failures)
     if (std::ranges::find(result.failures, failure) == result.failures.end())
       result.failures.push_back(failure);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/error.h"
 #include "hexwright/pipeline/size_plan.h"
 
 #include "mesh/tri_measures.h"
@@ -53,6 +54,16 @@ MeshResult run_quietly(Run run, const MeshOptions& options, const Context& conte
   return result;
 }
 
+/// The same for one try more: absent where it would take more than the budgets allow.
+std::optional<MeshResult> try_quietly(Run run, const MeshOptions& options, const Context& context) {
+  try {
+    return run_quietly(run, options, context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::OutOfResources) throw;
+    return {};
+  }
+}
+
 MeshResult say_warnings(MeshResult&& result, const Context& context) {
   for (const std::string& warning : result.warnings) context.warn(warning);
   return std::move(result);
@@ -75,10 +86,11 @@ MeshResult shorten_edges(const Target& target, const MeshOptions& options, Run r
   if (too_long_by <= 1) return say_warnings(std::move(best), context);
   for (int runs = 1; runs < kMostEdgeRuns; ++runs) {
     const double scale = next_scale(too_coarse, fine, too_long_by);
-    MeshResult next = run_quietly(run, with_size(options, scale * share), context);
-    const double ratio = next.edges.high / longest;
-    const bool is_usable = next.mesh.num_hexes() > 0 && !is_worse(next, best);
-    if (is_usable && (ratio <= 1 || !fine)) best = std::move(next);
+    std::optional<MeshResult> next = try_quietly(run, with_size(options, scale * share), context);
+    if (!next) break;
+    const double ratio = next->edges.high / longest;
+    const bool is_usable = next->mesh.num_hexes() > 0 && !is_worse(*next, best);
+    if (is_usable && (ratio <= 1 || !fine)) best = std::move(*next);
     if (ratio <= 1) fine = scale;
     if (ratio > 1) too_coarse = scale, too_long_by = ratio;
     // What a smaller size meets well may be met by one in between, with far fewer hexes.
@@ -130,10 +142,17 @@ MeshResult find_cells(const Target& target, const MeshOptions& options, Run run,
     return std::abs(static_cast<double>(r.mesh.num_hexes()) / wanted - 1);
   };
   for (int runs = 0; runs < kMostCellRuns && (!best || off(*best) > kCellRoom); ++runs) {
-    MeshResult result =
-        run_quietly(run, resolve_tolerance(with_size(options, share), target.diagonal()), context);
-    search.add(share, std::max(1.0, static_cast<double>(result.mesh.num_hexes())));
-    if (!best || off(result) < off(*best)) best = std::move(result);
+    const MeshOptions sized = resolve_tolerance(with_size(options, share), target.diagonal());
+    std::optional<MeshResult> result;
+    if (best)
+      result = try_quietly(run, sized, context);
+    else
+      result = run_quietly(run, sized, context);
+    if (!result) break;
+    search.add(share, std::max(1.0, static_cast<double>(result->mesh.num_hexes())));
+    const bool is_better = !best || is_worse(*best, *result) ||
+                           (!is_worse(*result, *best) && off(*result) < off(*best));
+    if (is_better) best = std::move(*result);
     share = search.next();
   }
   if (off(*best) > kCellRoom)

@@ -23,6 +23,18 @@ std::size_t count_hexes(TetMesh object, const TetMesh& polycube, PolycubeOptions
   return make_dual(grid, options, context).mesh.num_hexes();
 }
 
+/// Hexes over those wanted; infinite beyond the budget of cells.
+double share_of_wanted(const TetMesh& object, const TetMesh& polycube,
+                       const PolycubeOptions& options, const Context& context) {
+  try {
+    return static_cast<double>(count_hexes(object, polycube, options, context)) /
+           static_cast<double>(options.target_hexes);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::OutOfResources) throw;
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 }  // namespace
 
 Lattice choose_lattice(const TetMesh& object, const TetMesh& polycube, PolycubeOptions& options) {
@@ -54,8 +66,7 @@ double find_stretch(const TetMesh& object, const TetMesh& polycube, const Polycu
   double best = options.max_stretch, least_miss = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostTries; ++i) {
     context.check_cancelled();
-    const double share = static_cast<double>(count_hexes(object, polycube, trial, context)) /
-                         static_cast<double>(options.target_hexes);
+    const double share = share_of_wanted(object, polycube, trial, context);
     // A mesh that is too large misses twice as badly.
     const double miss = share > kTooMany ? 2 * std::log(share) : std::abs(std::log(share));
     if (miss < least_miss) {
@@ -64,10 +75,12 @@ double find_stretch(const TetMesh& object, const TetMesh& polycube, const Polycu
     }
     if (share > kEnough && share <= kTooMany) break;
     (share > 1 ? too_tight : too_loose) = trial.max_stretch;
-    trial.max_stretch =
+    double next =
         std::min(kCoarsest, trial.max_stretch * std::clamp(std::cbrt(share / 0.97), 0.25, 4.0));
-    if (trial.max_stretch <= too_tight || trial.max_stretch >= too_loose)
-      trial.max_stretch = std::min(kCoarsest, std::sqrt(too_tight * too_loose));
+    if (next <= too_tight || next >= too_loose)
+      next = std::min(kCoarsest, std::sqrt(too_tight * too_loose));
+    if (next == trial.max_stretch) break;  // the roots alone are more hexes than wanted
+    trial.max_stretch = next;
   }
   return best;
 }

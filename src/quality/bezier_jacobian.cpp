@@ -2,6 +2,8 @@
 
 #include "hexwright/mesh/hex_numbering.h"
 
+#include "quality/bezier_subdivision.h"
+
 namespace hexwright {
 namespace {
 
@@ -25,31 +27,6 @@ AxisEdges compute_axis_edges(const std::array<Vec3, 8>& p) {
 
 // Product of two linear Bernstein functions: B1_p B1_q = kProduct[p ^ q] B2_{p+q}.
 constexpr double kProduct[2] = {1, 0.5};
-
-// Splits three coefficients of one direction at the middle.
-struct Halves {
-  std::array<double, 3> lo, hi;
-};
-Halves split(double a, double b, double c) {
-  const double ab = 0.5 * (a + b);
-  const double bc = 0.5 * (b + c);
-  const double mid = 0.5 * (ab + bc);
-  return {{a, ab, mid}, {mid, bc, c}};
-}
-
-// Splits along the direction whose coefficients are `stride` apart.
-std::array<JacobianBezier, 2> split_along(const JacobianBezier& b, std::size_t stride) {
-  std::array<JacobianBezier, 2> halves;
-  for (std::size_t i = 0; i < 27; ++i) {
-    if (i / stride % 3 != 0) continue;
-    const Halves h = split(b[i], b[i + stride], b[i + 2 * stride]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      halves[0][i + k * stride] = h.lo[k];
-      halves[1][i + k * stride] = h.hi[k];
-    }
-  }
-  return halves;
-}
 
 }  // namespace
 
@@ -75,18 +52,6 @@ JacobianBezier compute_jacobian_bezier(const std::array<Vec3, 8>& p) {
   return b;
 }
 
-std::array<JacobianBezier, 8> subdivide(const JacobianBezier& b) {
-  std::array<JacobianBezier, 8> parts;
-  const auto in_x = split_along(b, 1);
-  for (std::size_t x = 0; x < 2; ++x) {
-    const auto in_y = split_along(in_x[x], 3);
-    for (std::size_t y = 0; y < 2; ++y) {
-      const auto in_z = split_along(in_y[y], 9);
-      parts[x + 2 * y] = in_z[0];
-      parts[x + 2 * y + 4] = in_z[1];
-    }
-  }
-  return parts;
-}
+std::array<JacobianBezier, 8> subdivide(const JacobianBezier& b) { return subdivide_cube<3>(b); }
 
 }  // namespace hexwright

@@ -8,6 +8,8 @@
 
 #include "hexwright/mesh/hex_numbering.h"
 
+#include "quality/bezier_subdivision.h"
+
 namespace hexwright {
 namespace {
 
@@ -94,25 +96,6 @@ Derivative differentiate(const std::array<Vec3, 27>& b, std::size_t stride) {
   return d;
 }
 
-/// Splits six coefficients that are `stride` apart at the middle (de Casteljau).
-void split(const QuadraticBezier& b, std::size_t first, std::size_t stride,
-           std::array<QuadraticBezier, 2>& halves) {
-  std::array<double, 6> row;
-  for (std::size_t k = 0; k < 6; ++k) row[k] = b[first + k * stride];
-  for (std::size_t level = 0; level < 6; ++level) {
-    halves[0][first + level * stride] = row[0];
-    halves[1][first + (5 - level) * stride] = row[5 - level];
-    for (std::size_t k = 0; k + level < 5; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
-  }
-}
-
-std::array<QuadraticBezier, 2> split_along(const QuadraticBezier& b, std::size_t stride) {
-  std::array<QuadraticBezier, 2> halves;
-  for (std::size_t i = 0; i < b.size(); ++i)
-    if (i / stride % 6 == 0) split(b, i, stride, halves);
-  return halves;
-}
-
 }  // namespace
 
 QuadraticBezier compute_quadratic_bezier(const QuadraticHex& nodes) {
@@ -129,19 +112,7 @@ QuadraticBezier compute_quadratic_bezier(const QuadraticHex& nodes) {
   return det.c;
 }
 
-std::array<QuadraticBezier, 8> subdivide(const QuadraticBezier& b) {
-  std::array<QuadraticBezier, 8> parts;
-  const auto in_x = split_along(b, 1);
-  for (std::size_t x = 0; x < 2; ++x) {
-    const auto in_y = split_along(in_x[x], 6);
-    for (std::size_t y = 0; y < 2; ++y) {
-      const auto in_z = split_along(in_y[y], 36);
-      parts[x + 2 * y] = in_z[0];
-      parts[x + 2 * y + 4] = in_z[1];
-    }
-  }
-  return parts;
-}
+std::array<QuadraticBezier, 8> subdivide(const QuadraticBezier& b) { return subdivide_cube<6>(b); }
 
 double volume_of(const QuadraticBezier& bezier) {
   double sum = 0;

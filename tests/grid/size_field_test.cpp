@@ -142,6 +142,12 @@ TEST(Lattice, PutsPlanesBetweenHexesAndShortensCellsForThat) {
   }
 }
 
+TEST(Lattice, RootsAreNeverTooLargeForTheLeastSide) {
+  const SizedDomain sized = fill_box({{0, 0, 0}, {20, 2, 2}}, 10, 4);
+  EXPECT_LE(sized.domain.frame.root_size, 0.5);
+  for (int a = 0; a < 3; ++a) EXPECT_GE(sized.domain.frame.stretch[a], 0.75);
+}
+
 TEST(Lattice, FillsABoxOfAnyProportionsExactly) {
   const Box3 box{{-5, 0, 1}, {20, 10, 8.5}};
   const SizedDomain sized = fill_box(box, 0.3, 4);

@@ -5,14 +5,9 @@ Usage: foreign_readers_test.py vtkmodules|meshio WRITE_SAMPLES_PROGRAM
 Exit code 77 (skipped) when the module is not installed; scripts/setup unpacks both under build/deps. Of VTK only the
 modules that read files are loaded: the rest would need a display's libraries.
 """
-import importlib.util
-import json
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
-SKIPPED = 77
+import foreign_reader
 
 
 def read_vtk(reader, path):
@@ -113,19 +108,8 @@ def run_meshio(folder, samples):
     assert len(abaqus.point_sets["CORNERS"]) == samples["corners"]
 
 
-def main():
-    module, program = sys.argv[1:]
-    if importlib.util.find_spec(module) is None:
-        print(f"the Python module '{module}' is not installed: skipped")
-        return SKIPPED
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        subprocess.run([program, name], check=True)
-        samples = json.loads((folder / "samples.json").read_text())
-        {"vtkmodules": run_vtk, "meshio": run_meshio}[module](folder, samples)
-    print(f"{module} reads everything as it was written")
-    return 0
+READERS = {"vtkmodules": ("module", run_vtk), "meshio": ("module", run_meshio)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(foreign_reader.run(READERS, "reads everything as it was written"))

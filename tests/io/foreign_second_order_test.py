@@ -4,16 +4,13 @@ the right order of nodes gives, and the nodes of their sets.
 
 Usage: foreign_second_order_test.py READER WRITE_SAMPLES_PROGRAM. Exit code 77 (skipped) when the reader is not installed.
 """
-import importlib
-import importlib.util
-import json
 import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
-SKIPPED = 77
+import foreign_reader
+
 #: Gauss points and weights on [0, 1], exact up to degree 7.
 GAUSS = [(0.5 + 0.5 * x, 0.5 * w) for x, w in ((-0.8611363115940526, 0.3478548451374538), (-0.3399810435848563, 0.6521451548625461),
                                              (0.3399810435848563, 0.6521451548625461), (0.8611363115940526, 0.3478548451374538))]
@@ -184,32 +181,5 @@ READERS = {
 }
 
 
-def is_installed(reader):
-    kind, _ = READERS[reader]
-    if kind == "program":
-        return shutil.which(reader) is not None
-    if importlib.util.find_spec(reader.split(".")[0]) is None:
-        return False
-    try:  # a module whose shared libraries are missing counts as absent
-        importlib.import_module(reader)
-    except (ImportError, OSError) as error:
-        print(error)
-        return False
-    return True
-
-
-def main():
-    reader, program = sys.argv[1:]
-    if not is_installed(reader):
-        print(f"'{reader}' is not installed: skipped")
-        return SKIPPED
-    with tempfile.TemporaryDirectory() as name:
-        subprocess.run([program, name], check=True)
-        samples = json.loads((Path(name) / "samples.json").read_text())
-        READERS[reader][1](Path(name), samples)
-    print(f"{reader} finds the curved elements as they were written")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(foreign_reader.run(READERS, "finds the curved elements as they were written"))

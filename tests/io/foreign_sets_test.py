@@ -6,18 +6,14 @@ when the reader is not installed; scripts/setup unpacks the Python modules under
 its name: the volume of each hex of a region (all are unit cubes, so a wrong order of nodes shows), the area and the
 direction of each face of a patch, and the places of the nodes of patches, curves and corners.
 """
-import importlib
-import importlib.util
-import json
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections import defaultdict
 from pathlib import Path
 
-SKIPPED = 77
+import foreign_reader
 
 
 def sub(a, b):
@@ -459,32 +455,5 @@ READERS = {
 }
 
 
-def is_installed(reader):
-    kind, _ = READERS[reader]
-    if kind == "program":
-        return shutil.which(reader) is not None
-    if importlib.util.find_spec(reader.split(".")[0]) is None:
-        return False
-    try:  # a module whose shared libraries are missing counts as absent
-        importlib.import_module(reader)
-    except (ImportError, OSError) as error:
-        print(error)
-        return False
-    return True
-
-
-def main():
-    reader, program = sys.argv[1:]
-    if not is_installed(reader):
-        print(f"'{reader}' is not installed: skipped")
-        return SKIPPED
-    with tempfile.TemporaryDirectory() as name:
-        subprocess.run([program, name], check=True)
-        samples = json.loads((Path(name) / "samples.json").read_text())
-        READERS[reader][1](Path(name), samples)
-    print(f"{reader} finds every set as it was written")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(foreign_reader.run(READERS, "finds every set as it was written"))

@@ -77,8 +77,11 @@ TEST(BodiesApart, GapIsAnOptionWithZeroForNever) {
     if (row.name == "gap") {
       row.set("3%");
       EXPECT_DOUBLE_EQ(options.gap, 0.03);
-      row.set("0");
-      EXPECT_EQ(options.gap, 0);
+      for (const char* never : {"0", "0.0", "0%"}) {
+        options.gap = 1;
+        row.set(never);
+        EXPECT_EQ(options.gap, 0) << never;
+      }
     }
 }
 

@@ -105,6 +105,7 @@ struct MeshResult {
   HexMesh mesh;
   Verdict verdict;
   SurfaceDiagnosis surface;
+  double diagonal = 0;  ///< that shares are of, world units
   /// How the part was turned to lie along the lattice (see Placement): the rows are the axes, in
   /// the world, along which the cells of `grid` and `sizing.grid` stand on their frame's origin.
   Rotation pose;

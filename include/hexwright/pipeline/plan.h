@@ -32,6 +32,9 @@ struct StagePlan {
 /// do not fit the target.
 StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& context = {});
 
+/// What a mesh is judged by; also that of a surface whose bodies were meshed apart.
+JudgeOptions plan_judge(const MeshOptions& wishes);
+
 /// What a target is asked for. With the background meshed as well it stays as given, because the
 /// box around it would turn.
 TargetOptions plan_target(const MeshOptions& wishes);

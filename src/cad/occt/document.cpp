@@ -110,7 +110,7 @@ class LabelReader {
     XCAFDoc_ShapeTool::GetSubShapes(label, pieces);
     for (const TDF_Label& piece : pieces) {
       const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(piece);
-      if (!shape.IsNull()) complete(result_.info[shape.TShape().get()], own_info(piece));
+      if (!shape.IsNull()) complete(result_.info[shape.TShape()], own_info(piece));
     }
     name_solids(part, own_info(label).name);
     for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_SHELL})
@@ -123,7 +123,7 @@ class LabelReader {
   void name_solids(const TopoDS_Shape& part, const std::string& name) {
     std::vector<PartInfo*> solids;
     for (TopExp_Explorer it(part, TopAbs_SOLID); it.More(); it.Next())
-      solids.push_back(&result_.info[it.Current().TShape().get()]);
+      solids.push_back(&result_.info[it.Current().TShape()]);
     if (name.empty()) return;
     for (PartInfo* solid : solids)
       if (solids.size() == 1 || solid->name.empty()) solid->name = name;
@@ -131,7 +131,7 @@ class LabelReader {
 
   void pass_down(const TopoDS_Shape& whole, const PartInfo& info) {
     for (TopExp_Explorer it(whole, TopAbs_FACE); it.More(); it.Next())
-      complete(result_.info[it.Current().TShape().get()], {"", info.layer, info.color});
+      complete(result_.info[it.Current().TShape()], {"", info.layer, info.color});
   }
 
   static void complete(PartInfo& info, const PartInfo& by) {
@@ -195,7 +195,7 @@ void read_item_names(const Handle(XSControl_WorkSession) & session, Document& re
     const std::string name = meaningful(item->Name()->ToCString());
     if (name.empty()) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process, item);
-    if (!shape.IsNull()) result.info[shape.TShape().get()].name = name;
+    if (!shape.IsNull()) result.info[shape.TShape()].name = name;
   }
 }
 

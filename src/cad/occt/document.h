@@ -21,11 +21,12 @@ struct PartInfo {
 struct Document {
   TopoDS_Shape shape;        ///< everything, placed
   std::string format, unit;  ///< see CadModel
-  /// By the shape without its place: instances of a part share it.
-  std::map<const TopoDS_TShape*, PartInfo> info;
+  /// By the shape without its place: instances of a part share it. The keys keep it: the address of
+  /// one that is gone could be that of another.
+  std::map<Handle(TopoDS_TShape), PartInfo> info;
 
   PartInfo info_of(const TopoDS_Shape& part) const {
-    const auto found = info.find(part.TShape().get());
+    const auto found = info.find(part.TShape());
     return found == info.end() ? PartInfo{} : found->second;
   }
 };

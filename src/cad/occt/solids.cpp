@@ -70,10 +70,10 @@ void carry_info(const TopoDS_Shape& whole, const BRepBuilderAPI_Sewing& sewing,
     for (TopExp_Explorer it(whole, kind); it.More(); it.Next()) {
       const TopoDS_Shape& old = it.Current();
       const TopoDS_Shape now = sewing.IsModifiedSubShape(old) ? sewing.ModifiedSubShape(old) : old;
-      const auto found = document.info.find(old.TShape().get());
+      const auto found = document.info.find(old.TShape());
       if (found != document.info.end() && now.TShape() != old.TShape()) {
         const PartInfo info = found->second;
-        document.info.emplace(now.TShape().get(), info);
+        document.info.insert_or_assign(now.TShape(), info);
       }
     }
 }

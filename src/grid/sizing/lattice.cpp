@@ -147,6 +147,7 @@ SizedDomain fill_box(const Box3& box, double edge, int least_roots) {
   GridFrame& frame = result.domain.frame;
   frame.origin = box.lo;
   frame.root_size = edge;
+  while (frame.root_size * least_roots > shortest * (1 + 1e-9)) frame.root_size /= 2;
   while (2 * frame.root_size * least_roots <= shortest * (1 + 1e-9) &&
          result.level < kMaxGridLevel) {
     frame.root_size *= 2;
@@ -159,8 +160,8 @@ SizedDomain fill_box(const Box3& box, double edge, int least_roots) {
     num_roots *= static_cast<std::int64_t>(std::min(cubes, 1e6));
     if (num_roots > kMaxRoots || cubes > 1000)
       throw Error(ErrorCode::OutOfResources,
-                  "the box is too long for its least side: it would take more than a million root "
-                  "cubes; make it wider or shorter");
+                  "the box is too long for its least side: it would take more than 1000 root cubes "
+                  "along an axis, or a million in all; make it wider or shorter");
     count[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(std::max(1.0, cubes));
     frame.stretch[a] = std::min(1.0, extent[a] / (std::max(1.0, cubes) * frame.root_size));
   }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/function_ref.h"
 #include "hexwright/base/parallel.h"
 
 #include "grid/cells/morton.h"
@@ -36,24 +37,27 @@ bool split_marked(Grid& grid, const std::vector<char>& marks, std::size_t max_ce
   return true;
 }
 
-void split_to_limits(Grid& grid, const SizeField& field, IsNeeded is_needed,
-                     std::size_t max_cells) {
-  if (field.limits.empty()) return;
+/// Splits cells for as long as there are some that `is_marked` takes.
+void split_while(Grid& grid, FunctionRef<bool(CellId)> is_marked, std::size_t max_cells) {
   std::vector<char> marks;
   do {
     marks.assign(grid.num_cells(), 0);
     parallel_for(
-        grid.num_cells(),
-        [&](std::size_t i) {
-          const CellId c(i);
-          if (grid.cells[c].level >= kMaxGridLevel) return;
-          const Box3 box = cell_box(grid, c);
-          const double edge = edge_of(grid, c);
-          if (edge / 2 < field.least_edge * (1 - kRounding)) return;
-          marks[i] = edge > field.limit(box) * (1 + kRounding) && is_needed(box);
-        },
-        64);
+        grid.num_cells(), [&](std::size_t i) { marks[i] = is_marked(CellId(i)); }, 64);
   } while (split_marked(grid, marks, max_cells));
+}
+
+void split_to_limits(Grid& grid, const SizeField& field, IsNeeded is_needed,
+                     std::size_t max_cells) {
+  if (field.limits.empty()) return;
+  const auto is_too_large = [&](CellId c) {
+    if (grid.cells[c].level >= kMaxGridLevel) return false;
+    const Box3 box = cell_box(grid, c);
+    const double edge = edge_of(grid, c);
+    if (edge / 2 < field.least_edge * (1 - kRounding)) return false;
+    return edge > field.limit(box) * (1 + kRounding) && is_needed(box);
+  };
+  split_while(grid, is_too_large, max_cells);
 }
 
 /// Cells of one level's lattice, in order.
@@ -123,18 +127,11 @@ void limit_growth(Grid& grid, const SizeField& field, IsNeeded is_needed, std::s
   const auto reach = static_cast<std::int32_t>(std::ceil(1 / (field.growth - 1) - kRounding));
   for (int level = grid.finest_level; level > 0; --level) {
     const CellSet near = dilate(cells_as_deep(grid, level, is_needed), reach);
-    std::vector<char> marks;
-    do {
-      marks.assign(grid.num_cells(), 0);
-      parallel_for(
-          grid.num_cells(),
-          [&](std::size_t i) {
-            const CellId c(i);
-            marks[i] = grid.cells[c].level < level && holds_any(grid, c, near, level) &&
-                       is_needed(cell_box(grid, c));
-          },
-          64);
-    } while (split_marked(grid, marks, max_cells));
+    const auto is_too_large = [&](CellId c) {
+      return grid.cells[c].level < level && holds_any(grid, c, near, level) &&
+             is_needed(cell_box(grid, c));
+    };
+    split_while(grid, is_too_large, max_cells);
   }
 }
 

@@ -96,6 +96,16 @@ std::string list_second_order(int nodes) {
   return list;
 }
 
+void check_nodes_per_hex(const HexMesh& mesh, int wanted) {
+  if (wanted != 0 && wanted != 8 && wanted != 20 && wanted != 27)
+    throw Error(ErrorCode::BadArgument, "hexes have no " + std::to_string(wanted) +
+                                            " nodes; give 20 or 27, or 8 to leave mid-nodes out");
+  if (wanted > 8 && !mesh.mid_nodes)
+    throw Error(ErrorCode::BadArgument, "the mesh is of first order and has no " +
+                                            std::to_string(wanted) +
+                                            " nodes per hex; make it of second order first");
+}
+
 /// Of hexes of second order, `wanted` or the usual number. Throws Error{BadArgument} when the
 /// format (null: OpenFOAM) does not have it.
 int choose_nodes(const MeshFormat* format, int wanted, const std::filesystem::path& path) {
@@ -221,6 +231,7 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
 WriteHexResult write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh,
                               const WriteHexOptions& options) {
   io::check_writable(mesh, options);
+  io::check_nodes_per_hex(mesh, options.nodes_per_hex);
   const bool is_linear = !mesh.mid_nodes || options.nodes_per_hex == 8;
   check_hex_mesh_format(path, options.format, is_linear ? 1 : 2, options.nodes_per_hex);
   WriteHexResult result;

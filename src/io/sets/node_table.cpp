@@ -55,12 +55,18 @@ VertId NodeTable::node_between(VertId a, VertId b) const {
               "a labelled edge is no edge of any hex; remove it from the labels");
 }
 
+HexFace NodeTable::find_face(const std::array<VertId, 4>& verts) const {
+  if (const auto found = faces_->find(verts)) return found->face;
+  throw Error(ErrorCode::BadArgument,
+              "a labelled quad is no face of any hex; remove it from the labels");
+}
+
 NodeList NodeTable::quad(const std::array<VertId, 4>& verts) const {
   NodeList nodes;
   for (VertId v : verts) nodes.push_back(v);
   if (is_linear()) return nodes;
   for (std::size_t k = 0; k < 4; ++k) nodes.push_back(node_between(verts[k], verts[(k + 1) % 4]));
-  if (nodes_per_hex_ == 27) nodes.push_back(face(faces_->find(verts)->face));
+  if (nodes_per_hex_ == 27) nodes.push_back(face(find_face(verts)));
   return nodes;
 }
 

@@ -53,6 +53,8 @@ class NodeTable {
   std::vector<VertId> set_nodes(const NamedSet& set) const;
   /// The node in the middle of a hex's face. Requires 27 nodes per hex.
   VertId face(HexFace face) const;
+  /// Throws Error{BadArgument} when no hex has it.
+  HexFace find_face(const std::array<VertId, 4>& verts) const;
   VertId middle(HexId h) const { return VertId(first_middle_ + h.index()); }
 
  private:

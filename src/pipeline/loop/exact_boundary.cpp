@@ -48,8 +48,10 @@ class ExactMover {
     floor_ = std::clamp(least_quality(), kLeastFloor, kMostFloor);
     report.max_before = largest_miss();
     for (int sweep = 0; sweep < kSweeps; ++sweep)
-      for (const VertId v : goal_.ids())
+      for (const VertId v : goal_.ids()) {
+        check_now_and_then(v);
         if (goal_[v]) move(v);
+      }
     for (const VertId v : goal_.ids()) {
       report.num_verts += place_[v] != Place::None;
       if (!goal_[v]) continue;
@@ -61,6 +63,10 @@ class ExactMover {
   }
 
  private:
+  void check_now_and_then(VertId v) const {
+    if (v.index() % 256 == 0) input_.context.check_cancelled();
+  }
+
   void add_quad(const LabeledQuad& quad, double sign) {
     const auto& p = mesh_.positions;
     const auto& q = quad.verts;
@@ -76,8 +82,10 @@ class ExactMover {
 
   void find_goals() {
     goal_.resize(mesh_.num_verts());
-    for (const VertId v : place_.ids())
+    for (const VertId v : place_.ids()) {
+      check_now_and_then(v);
       if (place_[v] != Place::None) goal_[v] = find_goal(v);
+    }
   }
 
   /// In unit coordinates. What is no curve or corner of the exact shape, as on the border of a

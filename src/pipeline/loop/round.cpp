@@ -118,6 +118,8 @@ Round lift_round(const RoundInput& input, Round round) {
   lifted.fit = run_stage(lifted.stages, "lift", input.context, [&] {
     return lift_fit(*round.fit.memory, input.target, input.plan.fit, input.context);
   });
+  lifted.curving.reset();
+  curve_round(input, lifted);
   lifted.verdict = run_stage(lifted.stages, "judge", input.context, [&] {
     return judge(lifted.fit.mesh, input.target, input.plan.judge, input.context);
   });

@@ -17,18 +17,6 @@ DualMode dual_mode_of(Pairing pairing) {
                                                                   : DualMode::Sheets;
 }
 
-/// Samples lie closer than what counts as far off.
-JudgeOptions plan_judge(const MeshOptions& wishes) {
-  const double threshold = wishes.refine_threshold * wishes.sizing.tolerance;
-  JudgeOptions judge;
-  if (wishes.fit.carve.side != Side::Inside) judge.quads = JudgedQuads::Labeled;
-  judge.edge_tolerance = wishes.edge_tolerance;
-  judge.corner_tolerance = wishes.corner_tolerance;
-  judge.hot_threshold = threshold;
-  judge.spacing = std::min(judge.spacing, 1.5 * threshold);
-  return judge;
-}
-
 /// Open or overlapping surfaces leave misses that no depth of cells cures, where parts meet: the
 /// loop gets this share of its budget ...
 constexpr std::size_t kDefectiveShare = 4;
@@ -47,6 +35,18 @@ Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
 }
 
 }  // namespace
+
+/// Samples lie closer than what counts as far off.
+JudgeOptions plan_judge(const MeshOptions& wishes) {
+  const double threshold = wishes.refine_threshold * wishes.sizing.tolerance;
+  JudgeOptions judge;
+  if (wishes.fit.carve.side != Side::Inside) judge.quads = JudgedQuads::Labeled;
+  judge.edge_tolerance = wishes.edge_tolerance;
+  judge.corner_tolerance = wishes.corner_tolerance;
+  judge.hot_threshold = threshold;
+  judge.spacing = std::min(judge.spacing, 1.5 * threshold);
+  return judge;
+}
 
 StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& context) {
   StagePlan plan;

@@ -291,9 +291,9 @@ std::string report_to_json(const MeshResult& result, const MeshOptions& options,
                  {"edges", describe_edges(result)},
                  {"dual", describe_dual(result.dual)},
                  {"fit", describe_fit(result.fit)},
-                 {"layers", describe_layers(result.layers)},
                  {"verdict", Json::parse(verdict_to_json(result.verdict))},
                  {"options", describe_options(options)}};
+  if (!options.layers.empty()) report["layers"] = describe_layers(result.layers);
   if (result.curving) report["curving"] = describe_curving(*result.curving);
   SetTable table = make_set_table(result.mesh);
   name_by_place(result.mesh, table);
