@@ -1,5 +1,5 @@
 // The scaled Jacobian of a hex and of its corners, and its volume: the one definition that every
-// module measures by. (relax/vertex_newton.h evaluates the same for four corners at a time.)
+// module measures by. (relax/kernel/vertex_newton.h evaluates the same for four corners at a time.)
 //
 // Based on: Stimpson, Ernst, Knupp, Pebay, Thompson, "The Verdict Geometric Quality Library",
 // SAND2007-1751, section 6.10. Differs: the 8 corners count, without Verdict's ninth frame at the
