@@ -1,10 +1,12 @@
-// Finds the tetrahedron that contains a point, by a bounding volume hierarchy.
+// Finds the tetrahedron that contains a point, by a tree of boxes.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "hexwright/mesh/tet_mesh.h"
+
+#include "base/box_tree.h"
 
 namespace hexwright::polycube {
 
@@ -29,18 +31,12 @@ class TetLocator {
   std::size_t num_nonpositive() const { return num_nonpositive_; }
 
  private:
-  struct Node {
-    Box3 box;
-    std::uint32_t first = 0,
-                  count = 0;  // leaf: tets first .. first+count; inner: children at first, first+1
-  };
-  void build();
   TetPoint nearest(const Vec3& p) const;
 
   const TetMesh& mesh_;
-  std::vector<TetId> order_;  // tets of the leaves, as the nodes count them
-  std::vector<Node> nodes_;
-  double slack_ = 0;  // boxes are enlarged by this, for points on facets
+  std::vector<TetId> tets_;  // the positive ones
+  BoxTree tree_;             // over tets_
+  double slack_ = 0;         // boxes are enlarged by this, for points on facets
   std::size_t num_nonpositive_ = 0;
 };
 

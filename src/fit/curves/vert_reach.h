@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/box_tree.h"
 #include "relax/kernel/boundary_quads.h"
 
 namespace hexwright::fitting {
@@ -19,18 +20,12 @@ class VertReach {
   void find(const Box3& box, std::vector<VertId>& found) const;
 
  private:
-  struct Node {
-    Box3 box;
-    std::size_t begin = 0, end = 0;  // leaf: range of verts_
-    std::size_t right = 0;           // inner node: right child (left is the next node); 0 = leaf
-  };
-  void build(std::size_t begin, std::size_t end);
   Box3 box_of(VertId v) const;
 
   const BoundaryQuads& boundary_;
   double reach_;
   std::vector<VertId> verts_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;  // over verts_
 };
 
 }  // namespace hexwright::fitting

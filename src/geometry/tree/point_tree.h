@@ -1,11 +1,12 @@
-// A k-d tree over points, for "which points lie in this box".
+// Points and a tree over them, for "which points lie in this box".
 #pragma once
 
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hexwright/base/function_ref.h"
-#include "hexwright/base/vec3.h"
+
+#include "base/box_tree.h"
 
 namespace hexwright {
 
@@ -20,11 +21,8 @@ class PointTree {
   const std::vector<Vec3>& points() const { return points_; }
 
  private:
-  void build(std::size_t begin, std::size_t end);
-
   std::vector<Vec3> points_;
-  std::vector<std::uint32_t> order_;  // the middle of each range splits it along axis_
-  std::vector<std::uint8_t> axis_;
+  BoxTree tree_;
 };
 
 }  // namespace hexwright

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/box_tree.h"
+
 namespace hexwright {
 namespace {
 
@@ -114,14 +116,11 @@ class Builder {
     return split_at_median(first, count, centers);
   }
 
-  /// Equal centres go by triangle id: the tree must not depend on the library's nth_element.
   int split_at_median(int first, int count, const Box3& centers) {
-    const Vec3 e = centers.extent();
-    const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
     const auto begin = items_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count, [&](const Item& a, const Item& b) {
-      return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.tri < b.tri;
-    });
+    hexwright::split_at_median(begin, begin + count / 2, begin + count,
+                               longest_axis(centers.extent()),
+                               [](const Item& item) { return std::pair(item.center, item.tri); });
     return first + count / 2;
   }
 

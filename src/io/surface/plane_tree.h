@@ -1,15 +1,14 @@
 // Points in a plane, found near a triangle.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "hexwright/base/function_ref.h"
-#include "hexwright/base/vec3.h"
+
+#include "base/box_tree.h"
 
 namespace hexwright::io {
 
@@ -38,8 +37,7 @@ struct Plane {
   }
 };
 
-/// A tree of boxes over points that do not change: each half of a range is split again, across the
-/// longer side of its box.
+/// Points that do not change and a tree over them.
 class PlaneTree {
  public:
   PlaneTree() = default;
@@ -51,15 +49,8 @@ class PlaneTree {
                  FunctionRef<bool(std::uint32_t index)> accept) const;
 
  private:
-  struct Box {
-    double u0 = std::numeric_limits<double>::infinity(), v0 = u0, u1 = -u0, v1 = -u0;
-  };
-  struct Query;
-  void build(std::size_t node, std::size_t begin, std::size_t end);
-  bool search(const Query& query, std::size_t node, std::size_t begin, std::size_t end) const;
-
   std::vector<PlanePoint> points_;
-  std::vector<Box> boxes_;  // of node n; its halves are 2n+1 and 2n+2
+  BoxTree tree_;  // over points_, as boxes without height
 };
 
 }  // namespace hexwright::io
