@@ -8,6 +8,9 @@
 #include "grid/plain_sets.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 using test::bricks_of;

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 double polygon_area(const ClippedPolygon& p) {

@@ -8,6 +8,9 @@
 #include "grid/grid_helpers.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// A random grid's sets over each sample domain, with what its sweep needs.

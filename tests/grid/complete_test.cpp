@@ -12,6 +12,9 @@
 #include "helpers.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 using test::plain_split_sets;

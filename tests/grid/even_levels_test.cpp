@@ -74,7 +74,7 @@ bool is_refinement_of(const Grid& fine, const Grid& coarse) {
 TEST(EvenLevels, WithoutTransitionCostOnlyCompletes) {
   const SurfaceTree tree(test::unit_sphere_surface(3));
   const Grid grid = graded_grid(tree, 3, 5, {0, 0, 1});
-  const EvenedGrid evened = even_levels(grid, tree, {}, {.transition_cost = 0}, {});
+  const EvenedGrid evened = even_levels(grid, occupancy_of(tree), {}, {.transition_cost = 0}, {});
   EXPECT_EQ(evened.base_level, 0);
   EXPECT_EQ(evened.completed.grid.cells, complete(grid, {}, {}).grid.cells);
 }
@@ -83,7 +83,8 @@ TEST(EvenLevels, ResultIsACompletedRefinement) {
   const SurfaceTree tree(test::unit_sphere_surface(3));
   const Grid grid = graded_grid(tree, 3, 4, {0, 0, 1});
   for (const double cost : {0.5, 2.0, 8.0}) {
-    const EvenedGrid evened = even_levels(grid, tree, {}, {.transition_cost = cost}, {});
+    const EvenedGrid evened =
+        even_levels(grid, occupancy_of(tree), {}, {.transition_cost = cost}, {});
     const Grid& result = evened.completed.grid;
     EXPECT_FALSE(result.find_problem());
     EXPECT_FALSE(find_unbalanced(result, Balance::Weak));
@@ -96,7 +97,7 @@ TEST(EvenLevels, IsPricedAsByBruteForceAndNeverDearerThanBefore) {
   const SurfaceTree tree(box_surface({1, 0.6, 0.4}));
   const Grid grid = graded_grid(tree, 3, 4, {1, 0.6, 0.4});
   const double plain = price(complete(grid, {}, {}).grid, tree, 2);
-  const EvenedGrid evened = even_levels(grid, tree, {}, {.transition_cost = 2}, {});
+  const EvenedGrid evened = even_levels(grid, occupancy_of(tree), {}, {.transition_cost = 2}, {});
   EXPECT_DOUBLE_EQ(evened.cost, price(evened.completed.grid, tree, 2));
   EXPECT_LE(evened.cost, plain);
 }
@@ -105,12 +106,12 @@ TEST(EvenLevels, ThinPartsGetCellsOfOneSizeAndThickOnesKeepTheirCoarseCells) {
   // A plate two cells thick, fine over most of it: evening the rest is cheap.
   const SurfaceTree plate(box_surface({1, 1, 0.1}));
   Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});
-  EvenedGrid evened = even_levels(grid, plate, {}, {.transition_cost = 50}, {});
+  EvenedGrid evened = even_levels(grid, occupancy_of(plate), {}, {.transition_cost = 50}, {});
   EXPECT_EQ(evened.base_level, 5);
   // A cube with one fine corner.
   const SurfaceTree cube(test::unit_cube_surface());
   grid = graded_grid(cube, 2, 7, {1, 1, 1});
-  evened = even_levels(grid, cube, {}, {.transition_cost = 4}, {});
+  evened = even_levels(grid, occupancy_of(cube), {}, {.transition_cost = 4}, {});
   EXPECT_LT(evened.base_level, 6);
   EXPECT_GE(evened.completed.grid.finest_level, 7);
 }
@@ -120,20 +121,21 @@ TEST(EvenLevels, KeepsToTheBudget) {
   const Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});
   const std::size_t plain = complete(grid, {}, {}).grid.num_cells();
   const EvenOptions tight{.transition_cost = 50, .max_cells = plain};
-  EXPECT_LE(even_levels(grid, plate, {}, tight, {}).completed.grid.num_cells(), plain);
+  EXPECT_LE(even_levels(grid, occupancy_of(plate), {}, tight, {}).completed.grid.num_cells(),
+            plain);
 }
 
 TEST(EvenLevels, DoesNotGrowObjectsBeyondTheirShare) {
   const SurfaceTree plate(box_surface({1, 1, 0.1}));
   const Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});
-  const EvenedGrid free = even_levels(grid, plate, {}, {.transition_cost = 50}, {});
+  const EvenedGrid free = even_levels(grid, occupancy_of(plate), {}, {.transition_cost = 50}, {});
   ASSERT_EQ(free.base_level, 5);
   // About 32 x 32 x 4 cells at that level meet the plate or lie in it.
-  const EvenedGrid roomy =
-      even_levels(grid, plate, {}, {.transition_cost = 50, .max_object_cells = 8000}, {});
+  const EvenedGrid roomy = even_levels(grid, occupancy_of(plate), {},
+                                       {.transition_cost = 50, .max_object_cells = 8000}, {});
   EXPECT_EQ(roomy.completed.grid.cells, free.completed.grid.cells);
-  const EvenedGrid tight =
-      even_levels(grid, plate, {}, {.transition_cost = 50, .max_object_cells = 1000}, {});
+  const EvenedGrid tight = even_levels(grid, occupancy_of(plate), {},
+                                       {.transition_cost = 50, .max_object_cells = 1000}, {});
   EXPECT_EQ(tight.base_level, 0);
 }
 
@@ -143,7 +145,7 @@ TEST(EvenLevels, SameForAnyNumberOfThreads) {
   std::vector<EvenedGrid> results;
   for (const int threads : {1, 2, 5}) {
     const ThreadLimit limit(threads);
-    results.push_back(even_levels(grid, tree, {}, {}, {}));
+    results.push_back(even_levels(grid, occupancy_of(tree), {}, {}, {}));
   }
   for (const EvenedGrid& r : results) {
     EXPECT_EQ(r.completed.grid.cells, results[0].completed.grid.cells);

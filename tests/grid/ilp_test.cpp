@@ -14,6 +14,9 @@
 #include "labelling/labelling.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 using test::random_grid;

@@ -8,6 +8,8 @@
 
 namespace hexwright::test {
 
+using namespace grids;
+
 using PlainSet = std::set<LatticeCoord>;
 
 inline PlainSet plain(const BrickSet& set) {

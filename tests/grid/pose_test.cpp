@@ -9,6 +9,9 @@
 #include "grid/grid_helpers.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 using test::random_grid;

@@ -16,6 +16,9 @@
 #include "helpers.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// The unit sphere with its vertices welded.

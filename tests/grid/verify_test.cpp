@@ -9,6 +9,9 @@
 #include "grid/pairing/clusters.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 using test::plain_split_sets;

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "hexwright/base/context.h"
-#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/grid/complete.h"
 #include "hexwright/grid/grid.h"
+#include "hexwright/grid/occupancy.h"
 
 namespace hexwright {
 
@@ -32,7 +32,7 @@ struct EvenedGrid {
 /// or 1 + transition_cost where levels meet. Cells outside, which the carve removes, count nothing.
 ///
 /// Errors: those of complete(). Same result for any thread count.
-EvenedGrid even_levels(const Grid& grid, const SurfaceTree& tree, const CompleteOptions& complete,
+EvenedGrid even_levels(const Grid& grid, const Occupancy& object, const CompleteOptions& complete,
                        const EvenOptions& options, const Context& context);
 
 }  // namespace hexwright

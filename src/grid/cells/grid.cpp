@@ -17,6 +17,9 @@
 #include "grid/cells/morton.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 constexpr std::int32_t kMaxRootCoord = 1 << 10;

@@ -8,6 +8,9 @@
 #include "grid/cells/morton.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// The finest-lattice cell at a world position; absent outside the range of roots.

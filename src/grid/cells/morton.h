@@ -8,7 +8,7 @@
 
 #include "hexwright/grid/grid.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 using MortonKey = std::uint64_t;
 
@@ -57,4 +57,4 @@ constexpr bool root_less(const LatticeCoord& a, const LatticeCoord& b) {
   return a[2] != b[2] ? a[2] < b[2] : a[1] != b[1] ? a[1] < b[1] : a[0] < b[0];
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -13,7 +13,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace hexwright {
+namespace hexwright::grids {
 
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
 void prefault_pages(void* begin, std::size_t num_bytes) {
@@ -34,4 +34,4 @@ void prefault_pages(void* begin, std::size_t num_bytes) {
 void prefault_pages(void*, std::size_t) {}
 #endif
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

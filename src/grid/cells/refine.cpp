@@ -14,6 +14,9 @@
 #include "grid/cells/prefault.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// A cell on its own level's lattice.

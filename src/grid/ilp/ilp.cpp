@@ -16,6 +16,9 @@
 #include "grid/pairing/balance.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// One time limit shared by the programs of all depths. A program that begins late gets a hundredth

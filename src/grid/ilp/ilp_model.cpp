@@ -11,7 +11,7 @@
 
 #include "hexwright/base/error.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 struct HighsDeleter {
@@ -86,4 +86,4 @@ IlpSolution IlpModel::solve(const std::vector<char>& start, double time_limit_se
   return out;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hexwright {
+namespace hexwright::grids {
 
 struct IlpTerm {
   std::int32_t column = 0;
@@ -42,4 +42,4 @@ class IlpModel {
   std::vector<double> factors_, lower_, upper_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

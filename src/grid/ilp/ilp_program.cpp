@@ -15,7 +15,7 @@
 #include "grid/pairing/balance.h"
 #include "grid/pairing/blocks.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr double kInf = IlpModel::kInfinity;
@@ -248,4 +248,4 @@ IlpSolution solve_hierarchy_program(const NestedSets& input, const NestedSets& s
   return solution;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

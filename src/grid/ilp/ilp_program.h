@@ -10,7 +10,7 @@
 #include "grid/ilp/ilp_model.h"
 #include "grid/sets/nested_sets.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// Least number of nodes in a conflict-free set of blocks that covers `required`: the paper's
 /// program, with a variable for every vertex that touches a node of `nodes` (a superset of
@@ -24,4 +24,4 @@ IlpSolution solve_hierarchy_program(const NestedSets& input, const NestedSets& s
                                     Balance balance, const LatticeDomain& domain,
                                     double time_limit_seconds, NestedSets* split);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -5,7 +5,7 @@
 
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
@@ -110,4 +110,4 @@ BrickSet required_above(const BrickSet& split, int depth, Balance balance,
   return collector.take();
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -6,7 +6,7 @@
 #include "grid/sets/brick_set.h"
 #include "grid/sets/lattice_domain.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// The nodes of depth - 1 that must be split so that every node of `split` (of this depth, >= 1)
 /// and all its neighbours in the domain exist: parents(split + N(split)), united with `input`.
@@ -21,4 +21,4 @@ BrickSet required_two_above(const BrickSet& split, int depth, const LatticeDomai
 /// Grows one brick's nodes by their neighbours; entry n is what lands in neighbour n.
 std::array<BrickBits, 27> grow_by_neighbours(BrickBits w, Balance balance);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -5,7 +5,7 @@
 
 #include "grid/pairing/balance.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 void solve(DepthProblem& problem) {
@@ -58,4 +58,4 @@ void count_problem(const DepthProblem& problem, CompleteReport& report) {
   report.gap += static_cast<std::size_t>(7 * (solution.cost - solution.lower_bound));
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

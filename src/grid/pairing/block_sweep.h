@@ -9,7 +9,7 @@
 #include "grid/sets/nested_sets.h"
 #include "labelling/labelling.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// One depth with everything that decides its labels.
 struct DepthProblem {
@@ -60,4 +60,4 @@ class BlockSweep {
   const LatticeDomain& domain_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

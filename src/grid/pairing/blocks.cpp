@@ -3,7 +3,7 @@
 
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
@@ -77,4 +77,4 @@ BrickSet blocks_of_parity(const BrickSet& required, Parity parity, int depth,
   return collector.take();
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -5,7 +5,7 @@
 
 #include "grid/pairing/clusters.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// The blocks of one parity that cover a brick's nodes; entry n is what lands in neighbour n.
 std::array<BrickBits, 27> grow_to_blocks(BrickBits w, Parity parity);
@@ -18,4 +18,4 @@ BrickSet blocks_of(const BrickSet& required, const Clusters& clusters,
 BrickSet blocks_of_parity(const BrickSet& required, Parity parity, int depth,
                           const LatticeDomain& domain);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

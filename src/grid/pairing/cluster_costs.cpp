@@ -10,7 +10,7 @@
 #include "grid/pairing/clusters.h"
 #include "grid/sets/hash.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
@@ -303,4 +303,4 @@ std::vector<Conflict> find_conflicts(const BrickSet& required, const Clusters& c
   return all;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -5,7 +5,7 @@
 // what each cluster requires for its own label, united with the input.
 #include "grid/pairing/cluster_requirements.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 ClusterRequirements::ClusterRequirements(const BlockSweep& sweep, const DepthProblem& problem,
                                          int depth)
@@ -34,4 +34,4 @@ BrickSet ClusterRequirements::required(const std::vector<std::uint8_t>& labels) 
   return BrickSet(std::move(bricks));
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

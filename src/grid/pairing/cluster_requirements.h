@@ -8,7 +8,7 @@
 
 #include "grid/pairing/block_sweep.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 class ClusterRequirements {
  public:
@@ -28,4 +28,4 @@ class ClusterRequirements {
   std::vector<std::array<std::optional<BrickSet>, kNumParities>> required_by_;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

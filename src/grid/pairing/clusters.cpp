@@ -7,7 +7,7 @@
 
 #include "base/disjoint_sets.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
@@ -124,4 +124,4 @@ Clusters find_clusters(const BrickSet& required) {
   return out;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

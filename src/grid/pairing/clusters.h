@@ -14,7 +14,7 @@
 #include "grid/sets/lattice_domain.h"
 #include "labelling/labelling.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 using labelling::Conflict;
 using labelling::kNumParities;
@@ -84,4 +84,4 @@ constexpr bool is_block_conflict(const LatticeCoord& offset) {
   return largest <= 3 && odd != 0 && smallest != 3;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -14,6 +14,9 @@
 #include "grid/sets/pose.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// One pass from the deepest depth to the roots; nothing iterates, as what a depth requires of the

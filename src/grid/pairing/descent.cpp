@@ -9,7 +9,7 @@
 #include "grid/pairing/cluster_requirements.h"
 #include "grid/sets/hash.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 // Work allowed beyond the sweep's own, counted in bricks, not in seconds, so that results do not
@@ -236,4 +236,4 @@ NestedSets Descent::run(CompleteReport& report) {
   return out;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -12,7 +12,7 @@
 
 #include "grid/pairing/block_sweep.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 class Descent {
  public:
@@ -56,4 +56,4 @@ class Descent {
   std::size_t work_ = 0, budget_ = 0;
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

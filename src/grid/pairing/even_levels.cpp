@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "hexwright/base/parallel.h"
-#include "hexwright/geometry/surface_topology.h"
 #include "hexwright/grid/locate.h"
 
 #include "base/disjoint_sets.h"
@@ -25,11 +24,10 @@ struct PlacedGrid {
   Places places;
 };
 
-/// Where the leaves of grids around one surface lie.
+/// Where the leaves of grids around one object lie.
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const SurfaceTree& tree)
-      : tree_(tree), is_closed_(is_oriented_cycle(tree.surface())) {}
+  explicit PlaceFinder(const Occupancy& object) : object_(object) {}
 
   /// Leaves inherit their place from the leaf of the coarser grid that holds them, unless that one
   /// is at the surface.
@@ -42,28 +40,22 @@ class PlaceFinder {
           const CellId c(i);
           const Box3 box = cell_box(grid, c);
           if (coarser) places[c] = coarser->places[find_leaf_at(coarser->grid, box.center())];
-          if (places[c] != Place::AtSurface || is_at_surface(box)) return;
-          if (is_closed_)
+          if (places[c] != Place::AtSurface || object_.meets_surface(box)) return;
+          if (object_.has_two_sides)
             is_open[c] = 1;
           else
             places[c] = side_of(box);
         },
         64);
-    if (is_closed_) settle_pieces(grid, is_open, places);
+    if (object_.has_two_sides) settle_pieces(grid, is_open, places);
     return places;
   }
 
  private:
   using Faces = std::array<CellId, 6>;
 
-  bool is_at_surface(const Box3& box) const {
-    ClosestFilter filter;
-    filter.max_distance = 0.5 * box.diagonal();
-    return tree_.closest(box.center(), filter).has_value();
-  }
-
   Place side_of(const Box3& box) const {
-    return tree_.is_inside(box.center()) ? Place::Inside : Place::Outside;
+    return object_.is_inside(box.center()) ? Place::Inside : Place::Outside;
   }
 
   /// Leaves off the surface that share a face lie on the same side of a closed surface: one winding
@@ -107,8 +99,7 @@ class PlaceFinder {
     return found;
   }
 
-  const SurfaceTree& tree_;
-  bool is_closed_;
+  const Occupancy& object_;
 };
 
 /// Whether a face neighbour has another level: one neighbour of the same level fills a whole face.
@@ -179,10 +170,10 @@ EvenedGrid complete_and_price(const PlacedGrid& placed, const PlaceFinder& finde
 
 }  // namespace
 
-EvenedGrid even_levels(const Grid& grid, const SurfaceTree& tree, const CompleteOptions& complete,
+EvenedGrid even_levels(const Grid& grid, const Occupancy& object, const CompleteOptions& complete,
                        const EvenOptions& options, const Context& context) {
   const auto watch = context.watch();
-  const PlaceFinder finder(tree);
+  const PlaceFinder finder(object);
   PlacedGrid current{grid, finder.find(grid, nullptr)};
   EvenedGrid best = complete_and_price(current, finder, complete, options.transition_cost, context);
   if (options.transition_cost <= 0) return best;

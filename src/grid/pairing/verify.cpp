@@ -16,6 +16,9 @@
 #include "labelling/labelling.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 void check_grid(const Grid& grid, const char* caller) {

@@ -11,7 +11,7 @@
 
 #include "grid/cells/morton.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 using BrickBits = std::uint64_t;
 using BrickKey = MortonKey;
@@ -148,4 +148,4 @@ constexpr std::array<BrickKey, 27> neighbour_keys(BrickKey key) {
   return keys;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

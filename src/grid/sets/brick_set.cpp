@@ -6,7 +6,7 @@
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 // A lambda, not a function: sorting calls it in line.
@@ -77,4 +77,4 @@ BrickSet BrickCollector::take() {
   return BrickSet(std::move(all));
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -7,7 +7,7 @@
 
 #include "grid/sets/brick.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 class BrickSet {
  public:
@@ -74,4 +74,4 @@ class BrickCollector {
 /// Sorts by key and unites bricks of equal key in place.
 void normalize_bricks(std::vector<Brick>& bricks);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -5,7 +5,7 @@
 
 #include "grid/sets/brick_set.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// Based on: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
@@ -27,4 +27,4 @@ inline std::uint64_t hash_of(const std::vector<LatticeCoord>& coords) {
   return h;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -7,7 +7,7 @@
 
 #include "hexwright/base/error.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 // Room for the neighbours of the outermost nodes: one brick at depth 0.
@@ -89,4 +89,4 @@ bool LatticeDomain::is_interior(BrickKey key, int depth) const {
   return true;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -9,7 +9,7 @@
 
 #include "grid/sets/brick.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 class LatticeDomain {
  public:
@@ -57,4 +57,4 @@ class LatticeDomain {
   std::vector<char> is_root_;  ///< per cube of that box; empty when there are too many
 };
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -10,7 +10,7 @@
 
 #include "grid/cells/prefault.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kLeavesPerChunk = 1 << 15;
@@ -201,4 +201,4 @@ Grid grid_of(const NestedSets& sets, const Grid& like, const LatticeDomain& doma
   return out;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

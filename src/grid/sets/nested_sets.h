@@ -8,7 +8,7 @@
 #include "grid/sets/brick_set.h"
 #include "grid/sets/lattice_domain.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// Entry d: split nodes of depth d, in the domain's shifted coordinates.
 using NestedSets = std::vector<BrickSet>;
@@ -19,4 +19,4 @@ NestedSets split_sets_of(const Grid& grid, const LatticeDomain& domain);
 /// The leaves of the sets, in the order of Grid::cells. Every split node's parent must be split.
 Grid grid_of(const NestedSets& sets, const Grid& like, const LatticeDomain& domain);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

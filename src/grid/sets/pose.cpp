@@ -13,7 +13,7 @@
 
 #include "grid/sets/hash.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 constexpr std::size_t kBricksPerChunk = 256;
@@ -296,4 +296,4 @@ Pose choose_pose(const NestedSets& sets, const LatticeDomain& domain) {
   return make_pose(candidates.front());
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

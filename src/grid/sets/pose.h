@@ -9,7 +9,7 @@
 
 #include "grid/sets/nested_sets.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// Coordinate a of the image is coordinate axis[a] of the original, mirrored when flip[a].
 struct Pose {
@@ -44,4 +44,4 @@ inline bool is_identity(const Pose& pose) {
   return pose.axis == std::array{0, 1, 2} && pose.flip == std::array{false, false, false};
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

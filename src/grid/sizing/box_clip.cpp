@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 /// Keeps the part of the polygon with sign * coordinate <= half on one axis.
@@ -63,4 +63,4 @@ bool segment_meets_cube(const Vec3& a, const Vec3& b, double half) {
   return t0 <= t1;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

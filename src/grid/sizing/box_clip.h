@@ -5,7 +5,7 @@
 
 #include "hexwright/base/vec3.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 /// A convex polygon; clipping a triangle by six planes leaves at most nine vertices.
 struct ClippedPolygon {
@@ -27,4 +27,4 @@ inline bool in_cube(const Vec3& p, double half) {
   return std::abs(p.x) <= half && std::abs(p.y) <= half && std::abs(p.z) <= half;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -4,7 +4,7 @@
 #include "grid/sizing/box_clip.h"
 #include "grid/sizing/sizing_scene.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 double max_norm(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
@@ -61,4 +61,4 @@ bool has_crowded_creases(const SizingScene& scene, const NodeCube& node,
   return false;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

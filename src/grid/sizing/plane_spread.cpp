@@ -11,7 +11,7 @@
 #include "grid/sizing/box_clip.h"
 #include "grid/sizing/sizing_scene.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 /// Clipped triangles of one node, in its coordinates.
@@ -126,4 +126,4 @@ double compute_plane_spread(const SizingScene& scene, const NodeCube& node,
   return spread;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -14,6 +14,9 @@
 #include "grid/cells/morton.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// Edges that were scaled to be equal may differ by rounding.

@@ -19,6 +19,9 @@
 #include "grid/sizing/sizing_scene.h"
 
 namespace hexwright {
+
+using namespace grids;
+
 namespace {
 
 /// Positions in kSplitReasons; Keep = the node stays a leaf.

@@ -6,7 +6,7 @@
 
 #include "hexwright/base/parallel.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 namespace {
 
 /// Spacing of the wall samples, as a share of the diagonal.
@@ -91,4 +91,4 @@ SizingScene make_sizing_scene(const SurfaceTree& tree, const FeatureGraph& featu
   return scene;
 }
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

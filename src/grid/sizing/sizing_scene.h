@@ -9,7 +9,7 @@
 #include "hexwright/geometry/shape_diameter.h"
 #include "hexwright/grid/sizing.h"
 
-namespace hexwright {
+namespace hexwright::grids {
 
 struct CreaseSegment {
   Vec3 a, b;
@@ -72,4 +72,4 @@ double compute_plane_spread(const SizingScene& scene, const NodeCube& node,
 bool has_crowded_creases(const SizingScene& scene, const NodeCube& node,
                          const SizingCandidates& near, double reach);
 
-}  // namespace hexwright
+}  // namespace hexwright::grids

@@ -205,7 +205,7 @@ CompleteResult even_out(const RoundInput& input, const Grid& given, bool is_even
   const Grid grid = keep_to_sizes(input, given);
   if (is_even) even.transition_cost = 0;
   CompleteResult evened =
-      even_levels(grid, input.target.tree, options, even, input.context).completed;
+      even_levels(grid, occupancy_of(input.target.tree), options, even, input.context).completed;
   if (options.pairing != Pairing::Sheets) return evened;
   CompleteResult fewest = complete_with_fewest_hexes(evened.grid, options, input.context);
   fewest.report.num_input_cells = evened.report.num_input_cells;
