@@ -13,6 +13,7 @@ import argparse
 import importlib
 import json
 import shlex
+import subprocess
 import sys
 from pathlib import Path
 
@@ -94,13 +95,22 @@ def default_data(module, parser, args):
         args.data = inside
 
 
+def stamped(page):
+    """The page with the version that made it behind its heading."""
+    shown = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%h (%cs)"], capture_output=True, text=True, check=False)
+    if shown.returncode != 0:
+        return page
+    heading, rest = page.split("\n\n", 1)
+    return f"{heading}\n\nOf commit {shown.stdout.strip()}.\n\n{rest}"
+
+
 def make_table(parser, args):
     module = importlib.import_module(f"tables.{args.table}")
     default_data(module, parser, args)
     records = run_table(module, args.table, args)
     if module.PAGE and not args.no_page:
         output = args.output or ROOT / "docs/results" / module.PAGE
-        output.write_text(module.page(records, args))
+        output.write_text(stamped(module.page(records, args)))
         print(f"{output} written")
     if args.store:
         args.store.write_text("".join(json.dumps(f) + "\n" for f in module.stored(records)))

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dual/base_mesh.h"
-#include "dual/core_planes.h"
-#include "dual/crossed_cells.h"
-#include "dual/double_links.h"
-#include "dual/pillow_stack.h"
+#include "dual/complex/base_mesh.h"
+#include "dual/domain/core_planes.h"
+#include "dual/domain/crossed_cells.h"
+#include "dual/complex/double_links.h"
+#include "dual/pillows/pillow_stack.h"
 
 namespace hexwright::dual {
 

@@ -4,7 +4,7 @@
 #include "hexwright/base/context.h"
 #include "hexwright/dual/dual_mesh.h"
 
-#include "dual/hex_complex.h"
+#include "dual/complex/hex_complex.h"
 
 namespace hexwright::dual {
 

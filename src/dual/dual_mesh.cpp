@@ -5,7 +5,7 @@
 
 #include "dual/build_complex.h"
 #include "dual/optimize.h"
-#include "dual/positions.h"
+#include "dual/complex/positions.h"
 #include "dual/quality_of_hex.h"
 
 namespace hexwright {
@@ -64,7 +64,8 @@ DualResult build_once(const Grid& grid, const DualOptions& options, const Contex
   }
   const MeshQuality raw = measure_quality(mesh);
   if (options.optimize)
-    result.report.num_freed_verts = optimize_positions(mesh, vert_to_hex, fixed_axes, context);
+    result.report.num_freed_verts =
+        optimize_positions(mesh, std::move(vert_to_hex), fixed_axes, context);
   const MeshQuality final = options.optimize ? measure_quality(mesh) : raw;
   to_world(used_grid, mesh);
   result.report.num_hexes = mesh.num_hexes();

@@ -25,7 +25,7 @@
 #include "fit/sheets/squeezed.h"
 #include "relax/joint/lift.h"
 #include "relax/passes/finish.h"
-#include "relax/passes/sweep.h"
+#include "relax/passes/pass.h"
 #include "relax/state/balance.h"
 #include "relax/state/targets.h"
 
@@ -46,7 +46,6 @@ struct Approach {
 };
 constexpr Approach kFinal = {8, 2}, kScaffold = {4, 2}, kPadded = {3, 1};
 constexpr Approach kClose = {4, 2}, kClosePadded = {5, 1};
-constexpr RefitOptions kThoroughRefit = {4, 0.02, 3};  // of models without curves
 constexpr int kSmoothRounds = 2;
 // Distance from the target, in h, that is worth quality down to FitOptions::snap_quality. Smaller
 // ones change neither the distances nor the features met, only the least scaled Jacobian.
@@ -180,7 +179,7 @@ class Fitter {
   // The best place for the boundary, and quality at that place.
   void arrive(Attempt& a) {
     clock_.run("balance", 0.88, [&] { balance(a); });
-    clock_.run("polish", 0.9, [&] { polish_worst(a.state, target(a), {}, context_); });
+    clock_.run("polish", 0.9, [&] { relax::run(kPolish, a.state, target(a), context_); });
     clock_.run("snap", 0.93, [&] { snap_gently(a); });
     clock_.run("lift", 0.95, [&] { lift_worst(a.state, target(a), {}, context_); });
     clock_.run("balance", 0.96, [&] { balance(a); });
@@ -269,7 +268,7 @@ class Fitter {
     if (!features_.empty()) clock_.run("meet curves", 0.5, [&] { meet_curves(a); });
     clock_.run("meet surface", 0.6, [&] { meet_surface(a); });
     clock_.run("refit", 0.7, [&] {
-      refit_stuck(a.state, target(a), is_selective() ? RefitOptions{} : kThoroughRefit, context_);
+      relax::run(is_selective() ? kRefit : kThoroughRefit, a.state, target(a), context_);
     });
     if (is_selective()) {
       clock_.run("pad squeezed", 0.8,

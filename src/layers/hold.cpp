@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "layers/walls.h"
+#include "mesh/quad.h"
 
 namespace hexwright::layers {
 namespace {
@@ -19,11 +20,6 @@ struct BoundaryVert {
   std::vector<Vec3> planes;   // of quads without a label
   std::vector<VertId> along;  // labelled edges
 };
-
-std::array<VertId, 4> sorted(std::array<VertId, 4> quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
-}
 
 class Holder {
  public:

@@ -64,13 +64,13 @@ class Reporter {
 
   void add_area(const LabeledQuad& quad) {
     if (patches_.spec_of(quad.patch) == kNoSpec) return;
-    rows_[quad.patch].area += layers::quad_area(mesh_.positions, quad.verts);
+    rows_[quad.patch].area += quad_area(mesh_.positions, quad.verts);
   }
 
   void add_hex(const SheetHex& hex) {
     const LabeledQuad& quad = sheet_.mesh.labels.quads[static_cast<std::size_t>(hex.label)];
     PatchLayers& row = rows_[quad.patch];
-    const double area = layers::quad_area(mesh_.positions, quad.verts);
+    const double area = quad_area(mesh_.positions, quad.verts);
     double least = std::numeric_limits<double>::infinity(), mean = 0, first = 0;
     const SheetVert* lowest = nullptr;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -21,11 +21,6 @@ using relax::BoundaryGraph;
 // quads as faces.
 constexpr double kWidestEnd = 165 * 3.14159265358979323846 / 180;
 
-std::array<VertId, 4> sorted(std::array<VertId, 4> quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
-}
-
 std::string at(const Similarity& frame, const Vec3& p) {
   const Vec3 w = frame.to_world(p);
   return fmt::format("({:.4g} {:.4g} {:.4g})", w.x, w.y, w.z);
@@ -178,10 +173,6 @@ std::vector<std::string> names_of(const SetTable& table, const NamedSet& patch) 
 }
 
 }  // namespace
-
-double quad_area(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q) {
-  return 0.5 * norm(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
-}
 
 WallPatches find_wall_patches(const HexMesh& mesh, const Similarity& frame,
                               const LayersOptions& options, LayersReport& report) {

@@ -7,6 +7,7 @@
 #include "hexwright/layers/layers.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "mesh/quad.h"
 #include "relax/kernel/boundary_quads.h"
 
 namespace hexwright::layers {
@@ -68,6 +69,5 @@ void leave_out_at(const std::vector<VertId>& verts, Skin& skin);
 inline Vec3 quad_normal(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q) {
   return normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
 }
-double quad_area(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q);
 
 }  // namespace hexwright::layers

@@ -8,7 +8,7 @@
 
 #include "hexwright/geometry/surface_names.h"
 
-#include "geometry/prepare/bodies.h"
+#include "geometry/topology/bodies.h"
 #include "geometry/tree/point_tree.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "mesh/tri_measures.h"

@@ -9,7 +9,7 @@
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/pipeline/plan.h"
 
-#include "geometry/prepare/closed_pieces.h"
+#include "geometry/topology/closed_pieces.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "mesh/tri_measures.h"
 

@@ -16,7 +16,7 @@
 
 #include "fit/sheets/pad_boundary.h"
 #include "relax/passes/finish.h"
-#include "relax/passes/sweep.h"
+#include "relax/passes/pass.h"
 #include "relax/passes/untangle.h"
 #include "relax/state/fit_state.h"
 #include "relax/state/targets.h"
@@ -178,7 +178,7 @@ std::vector<char> find_far(const FitState& state, double distance) {
 void improve_worst(FitState& state, const FitTarget& target, double near_surface,
                    const Context& context) {
   constexpr double kGentle = 0.4, kLeast = 0.15;  // scaled Jacobians
-  relax::polish_worst(state, target, {}, context);
+  relax::run(relax::kPolish, state, target, context);
   relax::snap_to_targets(state, target, kGentle);
   relax::lift_worst(state, target, {}, context);
   relax::snap_to_targets(state, target, kGentle);

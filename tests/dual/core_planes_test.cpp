@@ -1,5 +1,5 @@
 // Core planes and the split nodes they belong to, node by node.
-#include "dual/core_planes.h"
+#include "dual/domain/core_planes.h"
 
 #include <map>
 #include <random>

@@ -1,6 +1,6 @@
 // The invariants that the pillow stack's proof rests on (docs/algorithms/dual.md, "Why the result
 // conforms"), hex by hex.
-#include "dual/pillow_stack.h"
+#include "dual/pillows/pillow_stack.h"
 
 #include <map>
 

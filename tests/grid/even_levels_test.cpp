@@ -116,6 +116,26 @@ TEST(EvenLevels, ThinPartsGetCellsOfOneSizeAndThickOnesKeepTheirCoarseCells) {
   EXPECT_GE(evened.completed.grid.finest_level, 7);
 }
 
+// The object need not be a surface: two questions will do.
+TEST(EvenLevels, AsksForNoMoreThanWhatTheObjectFills) {
+  const Box3 box{{0, 0, 0}, {1, 1, 0.1}};
+  const SurfaceTree plate(box_surface({1, 1, 0.1}));
+  const Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});
+  Occupancy object;
+  object.is_inside = [&](const Vec3& p) { return box.contains(p); };
+  object.meets_surface = [&](const Box3& cell) {
+    return plate.distance(cell.center()) <= 0.5 * cell.diagonal();
+  };
+  for (bool has_two_sides : {true, false}) {
+    object.has_two_sides = has_two_sides;
+    const EvenedGrid asked = even_levels(grid, object, {}, {.transition_cost = 50}, {});
+    const EvenedGrid given =
+        even_levels(grid, occupancy_of(plate), {}, {.transition_cost = 50}, {});
+    EXPECT_EQ(asked.completed.grid.cells, given.completed.grid.cells);
+    EXPECT_EQ(asked.cost, given.cost);
+  }
+}
+
 TEST(EvenLevels, KeepsToTheBudget) {
   const SurfaceTree plate(box_surface({1, 1, 0.1}));
   const Grid grid = graded_grid(plate, 4, 5, {0.5, 0.5, 0.05});

@@ -36,6 +36,38 @@ TEST(GridIo, SingleRootsSurviveEveryFormat) {
   }
 }
 
+TEST(GridIo, StretchedGridsSurviveEveryFormat) {
+  const TempFolder folder;
+  for (const Vec3& stretch : {Vec3{1, 0.8, 0.95}, Vec3{0.7, 1, 1}, Vec3{0.3, 0.6, 1}}) {
+    Grid grid = random_grid({{-3, 0.5, 10}, 7.5}, {{0, 0, 0}}, 3, 1);
+    grid.frame.stretch = stretch;
+    for (const char* name : {"a.cells", "a.htg", "a.vtu", "a.vtk", "a.mesh"}) {
+      if (std::string(name) == "a.vtk")  // as hexes of any program: nothing says where roots lie
+        write_hex_mesh(folder / name, read_hex_mesh(folder / "a.vtu"));
+      else
+        write_grid(folder / name, grid);
+      const Grid back = read_grid(folder / name);
+      EXPECT_EQ(back.cells, grid.cells) << name;
+      EXPECT_NEAR(back.frame.root_size, 7.5, 1e-12) << name;
+      EXPECT_LT(distance(back.frame.origin, grid.frame.origin), 1e-12) << name;
+      EXPECT_LT(distance(back.frame.stretch, stretch), 1e-13) << name;
+    }
+  }
+}
+
+TEST(GridIo, CellsOfDifferentProportionsAreRefused) {
+  const TempFolder folder;
+  HexMesh mesh = test::box_hex_mesh(2, 1, 1);
+  for (Vec3& p : mesh.positions) p.x *= p.x;  // a cube, and one three times as long
+  write_hex_mesh(folder / "a.vtk", mesh);
+  try {
+    read_grid(folder / "a.vtk");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("proportions"), std::string::npos) << error.what();
+  }
+}
+
 TEST(GridIo, DomainsOfSeveralRootsSurvive) {
   const TempFolder folder;
   const Grid grid = random_grid({{1, 2, 3}, 0.1}, test::kRingRoots, 3, 5);

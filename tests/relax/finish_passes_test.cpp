@@ -80,19 +80,18 @@ TEST_F(FinishPasses, GrowTakesInOneRingOfHexNeighboursPerStep) {
 
 TEST_F(FinishPasses, RefitBringsAStuckVertexBackAndTouchesNothingElse) {
   FitState state = fitted_ball(sphere);
-  refit_stuck(state, target, {}, {});
+  run(kRefit, state, target, {});
   update_targets(state, target, 0);
   const FitState before = state;
   const VertId v = dent(state, 0.3);
   ASSERT_TRUE(v.is_valid());
   update_targets(state, target, 0);
   ASSERT_GT(state.residual(v), 0.2);
-  const RefitOptions options;
-  refit_stuck(state, target, options, {});
+  run(kRefit, state, target, {});
   update_targets(state, target, 0);
-  EXPECT_LT(state.residual(v), options.stuck);
+  EXPECT_LT(state.residual(v), kRefit.limit);
   EXPECT_GT(summarize_quality(state.mesh).min_scaled_jacobian, 0);
-  const auto is_near = rings_around(state, v, options.rings);
+  const auto is_near = rings_around(state, v, kRefit.rings);
   std::size_t num_far = 0;
   for (VertId u : state.kind.ids()) {
     if (is_near[u.index()]) continue;
@@ -105,17 +104,16 @@ TEST_F(FinishPasses, RefitBringsAStuckVertexBackAndTouchesNothingElse) {
 TEST_F(FinishPasses, RefitLeavesAMeshAloneThatHasArrived) {
   FitState state = fitted_ball(sphere);
   const auto before = state.mesh.positions;
-  RefitOptions options;
-  options.stuck = 1.01 * worst_residual(state);
-  refit_stuck(state, target, options, {});
+  Pass pass = kRefit;
+  pass.limit = 1.01 * worst_residual(state);
+  EXPECT_TRUE(run(pass, state, target, {}));
   EXPECT_EQ(state.mesh.positions, before);
 }
 
 TEST_F(FinishPasses, PolishRaisesPoorHexesAndTouchesNothingElse) {
   FitState state = fitted_ball(sphere);
-  polish_worst(state, target, {}, {});
-  const PolishOptions options;
-  ASSERT_GT(summarize_quality(state.mesh).min_scaled_jacobian, options.low);
+  run(kPolish, state, target, {});
+  ASSERT_GT(summarize_quality(state.mesh).min_scaled_jacobian, kPolish.limit);
   const FitState before = state;
   // An interior vertex most of the way to a neighbour.
   VertId moved;
@@ -126,17 +124,17 @@ TEST_F(FinishPasses, PolishRaisesPoorHexesAndTouchesNothingElse) {
     state.mesh.positions[v] = origin + 0.75 * (state.mesh.positions[neighbor] - origin);
     const double poor = min_scaled_jacobian_around(
         state.mesh.positions[v], state.stars[v], IdSpan<VertId, const Vec3>(state.mesh.positions));
-    if (poor > 0 && poor < options.low) {
+    if (poor > 0 && poor < kPolish.limit) {
       moved = v;
       break;
     }
     state.mesh.positions[v] = origin;
   }
   ASSERT_TRUE(moved.is_valid());
-  polish_worst(state, target, options, {});
-  EXPECT_GE(summarize_quality(state.mesh).min_scaled_jacobian, options.low);
+  EXPECT_TRUE(run(kPolish, state, target, {}));
+  EXPECT_GE(summarize_quality(state.mesh).min_scaled_jacobian, kPolish.limit);
   // Poor hexes are around the vertex; one ring more is worked on in each round.
-  const auto is_near = rings_around(state, moved, 1 + options.max_rounds);
+  const auto is_near = rings_around(state, moved, 1 + kPolish.max_rounds);
   for (VertId u : state.kind.ids())
     if (!is_near[u.index()]) {
       EXPECT_EQ(state.mesh.positions[u], before.mesh.positions[u]);

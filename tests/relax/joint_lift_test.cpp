@@ -14,7 +14,9 @@
 #include "fit/fit_helpers.h"
 #include "helpers.h"
 #include "relax/joint/energy.h"
+#include "relax/joint/lift.h"
 #include "relax/joint/region.h"
+#include "relax/joint/volume_budget.h"
 #include "relax/state/proof.h"
 
 namespace hexwright {
@@ -123,6 +125,26 @@ TEST(JointEnergy, KeepsVertsWithoutSlackOnWhatTheyAreAttachedTo) {
   EXPECT_EQ(step[2], Vec3{});
 }
 
+TEST(VolumeBudget, ChangesAddUpAndThoseTheOtherWayGiveRoomBack) {
+  VolumeBudget budget(1);
+  EXPECT_TRUE(budget.spend(0.75));
+  EXPECT_FALSE(budget.spend(0.5));  // and is not counted
+  EXPECT_EQ(budget.spent(), 0.75);
+  EXPECT_TRUE(budget.spend(-1.5));
+  EXPECT_EQ(budget.spent(), -0.75);
+  EXPECT_FALSE(budget.spend(-0.5));
+  EXPECT_TRUE(budget.spend(0.5));
+  EXPECT_TRUE(budget.spend(1.25));  // just all of it
+  EXPECT_FALSE(budget.spend(1e-9));
+}
+
+TEST(VolumeBudget, OfNothingTakesNoChangeAtAll) {
+  VolumeBudget budget(0);
+  EXPECT_FALSE(budget.spend(1e-300));
+  EXPECT_FALSE(budget.spend(-1e-300));
+  EXPECT_TRUE(budget.spend(0));
+}
+
 /// More than any part has by itself.
 FitOptions high_goal() {
   FitOptions options;
@@ -169,6 +191,19 @@ TEST(JointLift, RaisesTheLeastWithinTheTolerance) {
     EXPECT_LE(after, std::max(options.tolerance, 1.05 * before)) << "trial " << trial;
   }
   EXPECT_GT(sum_after, sum_before + 2 * 0.05);
+}
+
+// A thin plate has room on both sides: left to themselves, its poor hexes would make it thicker.
+TEST(JointLift, KeepsTheVolume) {
+  std::mt19937 rng(5);
+  const Target target = wrap_target(turned_plate(rng));
+  FitOptions options = high_goal();
+  options.tolerance = 0.03;  // so wide that the volume alone holds the surface
+  const Lifted lifted = lift_coarse(target, options);
+  const double before = summarize_quality(lifted.before.mesh).total_volume;
+  const double after = summarize_quality(lifted.after.mesh).total_volume;
+  EXPECT_GT(least(lifted.after), least(lifted.before) + 0.02);
+  EXPECT_LT(std::abs(after / before - 1), 0.01);
 }
 
 TEST(JointLift, IsTheSameForAnyNumberOfThreads) {

@@ -7,7 +7,7 @@
 
 #include "hexwright/base/function_ref.h"
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 #include "geometry/tree/triangle_math.h"
 
 namespace hexwright::fitting {

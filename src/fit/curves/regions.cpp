@@ -6,6 +6,8 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright::fitting {
 
 using namespace relax;
@@ -16,12 +18,6 @@ struct Ballot {
   PatchId patch;
   double area = 0;
 };
-
-double quad_area(const BoundaryQuads& boundary, QuadId q) {
-  const auto& quad = boundary.quads[q];
-  const auto& p = boundary.positions;
-  return 0.5 * norm(cross(p[quad[2]] - p[quad[0]], p[quad[3]] - p[quad[1]]));
-}
 
 }  // namespace
 
@@ -94,7 +90,7 @@ void vote_patches(const BoundaryQuads& boundary, const SurfaceTree& tree, const 
       [&](std::size_t i) {
         const QuadId q(i);
         ballots[i] = {regions.quad_to_region[q], nearest_patch(boundary, tree, patches, q),
-                      quad_area(boundary, q)};
+                      quad_area(boundary.positions, boundary.quads[q])};
       },
       64);
   std::stable_sort(ballots.begin(), ballots.end(), [](const Ballot& x, const Ballot& y) {

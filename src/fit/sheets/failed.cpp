@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "relax/passes/finish.h"
-#include "relax/passes/sweep.h"
+#include "relax/passes/pass.h"
 #include "relax/state/targets.h"
 
 namespace hexwright::fitting {
@@ -59,7 +59,7 @@ SqueezedReport pad_failed_quads(FitState& state, BoundaryState& boundary, const 
   run_locally(tried, region, target, {0, 1, 0}, geometric_weights(3, 300, 5));
   context.check_cancelled();
   run_locally(tried, region, target, {0.9, 1, 0}, geometric_weights(300, 1e5, 5));
-  refit_stuck(tried, target, {}, context);
+  relax::run(kRefit, tried, target, context);
   update_targets(tried, target, 0);
   const auto most = options.worthwhile * static_cast<double>(num_failed);
   if (static_cast<double>(count(find_failed(tried, options))) > most) return {};

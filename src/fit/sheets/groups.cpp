@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fit/sheets/quad_fans.h"
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 
 namespace hexwright::fitting {
 

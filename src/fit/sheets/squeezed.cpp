@@ -10,7 +10,7 @@
 #include "fit/sheets/relabel.h"
 #include "fit/sheets/squeezed_planner.h"
 #include "fit/sheets/visible.h"
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 
 namespace hexwright::fitting {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 #include "geometry/tree/point_tree.h"
 
 namespace hexwright {

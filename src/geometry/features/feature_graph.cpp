@@ -12,7 +12,7 @@
 #include "hexwright/geometry/exposure.h"
 
 #include "geometry/features/edges_along.h"
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 #include "geometry/tree/triangle_math.h"
 
 namespace hexwright {

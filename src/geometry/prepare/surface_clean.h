@@ -6,7 +6,7 @@
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/mesh/tri_mesh.h"
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 
 namespace hexwright {
 

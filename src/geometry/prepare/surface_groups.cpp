@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 
 namespace hexwright {
 namespace {

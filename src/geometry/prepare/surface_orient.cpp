@@ -8,7 +8,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/geometry/surface_tree.h"
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 #include "geometry/tree/triangle_math.h"
 #include "mesh/tri_measures.h"
 

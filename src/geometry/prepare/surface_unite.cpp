@@ -2,7 +2,7 @@
 // the object, and the curves in which parts meet are its edges.
 #include <algorithm>
 
-#include "geometry/prepare/bodies.h"
+#include "geometry/topology/bodies.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/unite_solids.h"
 #include "geometry/tree/triangle_contacts.h"

@@ -20,7 +20,8 @@ struct GridFile {
 
 GridFile read_cells_file(const VolumeSource& source);
 GridFile read_htg(const VolumeSource& source);
-/// Hexes with hanging nodes, from any program, as cells. Every hex must be an axis-aligned cube.
+/// Hexes with hanging nodes, from any program, as cells. Every hex must be an axis-aligned box of
+/// the others' proportions.
 GridFile hexes_to_grid(const VolumeFile& file, const std::string& name);
 
 std::string cells_text(const Grid& grid);

@@ -29,18 +29,24 @@ GridFile read_grid_file(const std::filesystem::path& path) {
   return hexes_to_grid(read_volume_bytes(source, extension), file.name);
 }
 
+VtkOutArray frame_array(const char* name, std::vector<double> values) {
+  VtkOutArray array;
+  array.name = name;
+  array.num_components = static_cast<int>(values.size());
+  array.reals = std::move(values);
+  return array;
+}
+
 /// The frame travels in the field data: without it a reader cannot know how large the root cubes
 /// are when all of them are split.
 std::string grid_vtu(const Grid& grid) {
   const HexMesh mesh = grid_to_hexes(grid);
   VtkOutput data = make_vtk_output(NodeTable(mesh, 8), {}, {});
   data.cell_data.front().name = "level";
-  VtkOutArray frame;
-  frame.name = "grid_frame";
-  frame.num_components = 4;
-  const GridFrame& f = grid.frame;
-  frame.reals = {f.origin.x, f.origin.y, f.origin.z, f.root_size};
-  data.field_data.push_back(std::move(frame));
+  const auto& [origin, root_size, stretch] = grid.frame;
+  data.field_data.push_back(frame_array("grid_frame", {origin.x, origin.y, origin.z, root_size}));
+  if (!(stretch == Vec3{1, 1, 1}))
+    data.field_data.push_back(frame_array("grid_stretch", {stretch.x, stretch.y, stretch.z}));
   return vtu_bytes(mesh.positions, data);
 }
 

@@ -31,6 +31,7 @@ class HexGridReader {
   GridFile run() {
     if (file_.hexes.empty())
       throw bad_file(name_, "the file holds no hexahedron; give a grid of cubes");
+    choose_stretch();
     const std::vector<Box3> boxes = find_boxes();
     choose_units(boxes);
     for (std::size_t h = 0; h < boxes.size(); ++h) cubes_.push_back(to_cube(boxes[h], h));
@@ -43,14 +44,42 @@ class HexGridReader {
     throw bad_element(name_, "hex " + std::to_string(hex), message);
   }
 
+  /// Cells may be shorter along an axis than along another, all in the same ratio: from here on
+  /// everything is measured in coordinates in which they are cubes.
+  void choose_stretch() {
+    if (!file_.grid_stretch.empty()) {
+      for (int axis = 0; axis < 3; ++axis)
+        stretch_[axis] = file_.grid_stretch[static_cast<std::size_t>(axis)];
+      if (!(std::min({stretch_.x, stretch_.y, stretch_.z}) > 0))
+        throw bad_file(name_, "'grid_stretch' must be positive; write the grid again");
+      return;
+    }
+    Vec3 sum;  // the mean is known better than one rounded cell
+    for (HexId h : file_.hexes.ids()) {
+      Box3 box;
+      for (VertId v : file_.hexes[h]) box.extend(file_.positions[v]);
+      sum += box.extent();
+    }
+    const double longest = std::max({sum.x, sum.y, sum.z});
+    if (!(std::min({sum.x, sum.y, sum.z}) > 0) || !std::isfinite(longest)) return;
+    for (int axis = 0; axis < 3; ++axis)
+      stretch_[axis] = sum[axis] < (1 - kCubeTolerance) * longest ? sum[axis] / longest : 1;
+  }
+
+  Vec3 unstretched(const Vec3& p) const {
+    return {p.x / stretch_.x, p.y / stretch_.y, p.z / stretch_.z};
+  }
+
   std::vector<Box3> find_boxes() const {
     std::vector<Box3> boxes;
     CancelCheck check_cancelled;
     for (HexId h : file_.hexes.ids()) {
       check_cancelled();
       Box3 box;
-      for (VertId v : file_.hexes[h]) box.extend(file_.positions[v]);
-      if (!is_cube(h, box)) fail(h.index(), "it is not an axis-aligned cube; give a grid of cubes");
+      for (VertId v : file_.hexes[h]) box.extend(unstretched(file_.positions[v]));
+      if (!is_cube(h, box))
+        fail(h.index(),
+             "it is not an axis-aligned cell of the others' proportions; give a grid of cubes");
       boxes.push_back(box);
     }
     return boxes;
@@ -64,7 +93,7 @@ class HexGridReader {
     if (!(std::min({size.x, size.y, size.z}) > edge - tolerance) || !(edge > 0)) return false;
     unsigned corners_seen = 0;
     for (VertId v : file_.hexes[h]) {
-      const Vec3 p = file_.positions[v] - box.lo;
+      const Vec3 p = unstretched(file_.positions[v]) - box.lo;
       unsigned bits = 0;
       for (int axis = 0; axis < 3; ++axis) {
         if (p[axis] > edge / 2) bits |= 1u << axis;
@@ -94,7 +123,7 @@ class HexGridReader {
       fail(smallest_hex, "its size is not within 1 to 2^-20 of a root cube's; give a coarser grid");
     unit_ = std::ldexp(root, -log_root_);
     const auto& frame = file_.grid_frame;
-    origin_ = has_frame ? Vec3{frame[0], frame[1], frame[2]} : all.lo;
+    origin_ = has_frame ? unstretched({frame[0], frame[1], frame[2]}) : all.lo;
     const Vec3 reach = max(all.hi - origin_, origin_ - all.lo);
     // Room for the root coordinates that a grid allows.
     if (!(std::max({reach.x, reach.y, reach.z}) <= std::ldexp(root, 10)))
@@ -158,7 +187,9 @@ class HexGridReader {
 
   GridFile make_file() const {
     GridFile result;
-    result.frame = {origin_, std::ldexp(unit_, log_root_)};
+    result.frame.origin = {origin_.x * stretch_.x, origin_.y * stretch_.y, origin_.z * stretch_.z};
+    result.frame.root_size = std::ldexp(unit_, log_root_);
+    result.frame.stretch = stretch_;
     for (const LatticeCube& cube : cubes_) {
       CellSpec cell;
       cell.level = log_root_ - cube.log_size;
@@ -172,7 +203,8 @@ class HexGridReader {
 
   const VolumeFile& file_;
   const std::string& name_;
-  Vec3 origin_, extent_;
+  Vec3 stretch_ = {1, 1, 1};
+  Vec3 origin_, extent_;  // unstretched
   double unit_ = 1;
   int log_root_ = 0;
   std::vector<LatticeCube> cubes_;

@@ -49,24 +49,31 @@ class HtgReader {
     return {};
   }
 
-  /// One size of root cubes along all axes; coordinates of files are rounded, so sizes are compared
-  /// with a tolerance relative to the cube.
+  /// One edge of roots per axis, the longest of which is the size of a root; coordinates of files
+  /// are rounded, so edges are compared with a tolerance.
   void read_frame() {
     constexpr const char* kNames[] = {"XCoordinates", "YCoordinates", "ZCoordinates"};
+    Vec3 edge;
     for (int axis = 0; axis < 3; ++axis) {
       const auto coords = named("Grid", kNames[axis], true);
       if (coords.size() < 2) fail("the grid is not three-dimensional; give a grid of volume cells");
-      if (axis == 0) file_.frame.root_size = coords[1] - coords[0];
-      const double size = file_.frame.root_size;
+      const double size = coords[1] - coords[0];
       if (!(size > 0) || !std::isfinite(size))
         fail("the coordinates of the root cubes do not increase; write the file again");
       for (std::size_t i = 0; i + 1 < coords.size(); ++i)
         if (!(std::abs(coords[i + 1] - coords[i] - size) <= kSpacingTolerance * size))
           fail(std::string(kNames[axis]) +
-               ": root cells are not cubes of one size; give a grid of cubes");
+               ": root cells are not of one size; give a grid of equal root cells");
+      edge[axis] = size;
       file_.frame.origin[axis] = coords[0];
       num_roots_[axis] = static_cast<std::int64_t>(coords.size()) - 1;
     }
+    // With one edge for all axes it is that of the first, bit for bit.
+    const double longest = std::max({edge.x, edge.y, edge.z});
+    const auto is_full = [&](double e) { return e >= (1 - kSpacingTolerance) * longest; };
+    file_.frame.root_size = is_full(edge.x) ? edge.x : longest;
+    for (int axis = 0; axis < 3; ++axis)
+      file_.frame.stretch[axis] = is_full(edge[axis]) ? 1 : edge[axis] / file_.frame.root_size;
   }
 
   /// Trees are numbered x fastest, or z fastest when transposed.

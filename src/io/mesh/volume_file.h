@@ -26,6 +26,7 @@ struct VolumeFile {
   BoundaryLabels labels;
   std::size_t num_others = 0;      ///< elements of kinds that are left out
   std::vector<double> grid_frame;  ///< origin and root size when the file carries a grid, or empty
+  std::vector<double> grid_stretch;  ///< its stretch, three values; empty = cubes, or not known
 };
 
 /// The bytes of a file and the name for messages.

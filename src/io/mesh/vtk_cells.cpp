@@ -221,6 +221,7 @@ class VtkConverter {
         file_.labels.corners.push_back(field_verts<1>(*corners, i, kCorners)[0]);
     }
     if (const VtkArray* frame = find_field("grid_frame", 4)) file_.grid_frame = frame->values;
+    if (const VtkArray* s = find_field("grid_stretch", 3)) file_.grid_stretch = s->values;
     if (find_field(kNamedSets, 1)) read_names();
   }
 
@@ -370,7 +371,8 @@ void add_cell_fields(const HexMesh& mesh, const WriteHexOptions& options, VtkOut
 NameRules vtk_names() {
   NameRules rules;
   rules.is_allowed = is_word_letter_or_mark;
-  rules.reserved = {kQuads, kQuadPatch, kEdges, kEdgeCurve, kCorners, kNamedSets, "grid_frame"};
+  rules.reserved = {kQuads,   kQuadPatch, kEdges,       kEdgeCurve,
+                    kCorners, kNamedSets, "grid_frame", "grid_stretch"};
   return rules;
 }
 

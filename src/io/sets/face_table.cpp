@@ -5,16 +5,9 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright::io {
-namespace {
-
-std::array<VertId, 4> sorted(std::array<VertId, 4> verts) {
-  std::sort(verts.begin(), verts.end());
-  return verts;
-}
-
-}  // namespace
-
 std::array<VertId, 4> face_verts(const Hexes& hexes, HexFace face) {
   std::array<VertId, 4> verts;
   for (std::size_t k = 0; k < 4; ++k) {

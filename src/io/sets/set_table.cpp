@@ -8,13 +8,10 @@
 
 #include "hexwright/base/error.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright {
 namespace {
-
-std::array<VertId, 4> sorted(std::array<VertId, 4> verts) {
-  std::sort(verts.begin(), verts.end());
-  return verts;
-}
 
 const std::vector<std::string>& names_of(const HexMesh& mesh, SetKind kind) {
   static const std::vector<std::string> kNone;

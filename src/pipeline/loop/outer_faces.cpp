@@ -9,17 +9,12 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright {
 namespace {
 
 constexpr std::array<const char*, 6> kSideNames = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
-
-using SortedQuad = std::array<VertId, 4>;
-
-SortedQuad sorted(SortedQuad quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
-}
 
 /// The side of the box that all vertices lie on; -1 = none.
 int find_side(const HexMesh& mesh, const std::array<VertId, 4>& quad, const Box3& box) {
@@ -49,7 +44,7 @@ Box3 box_of(const GridDomain& domain) {
 
 void name_outer_faces(const Box3& box, HexMesh& mesh) {
   BoundaryLabels& labels = mesh.labels;
-  std::set<SortedQuad> labelled;
+  std::set<std::array<VertId, 4>> labelled;
   std::int32_t num_patches = static_cast<std::int32_t>(labels.patch_names.size());
   for (const LabeledQuad& quad : labels.quads) {
     labelled.insert(sorted(quad.verts));

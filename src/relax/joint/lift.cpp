@@ -1,7 +1,6 @@
 #include "relax/joint/lift.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "relax/joint/patch.h"
 #include "relax/joint/region.h"
+#include "relax/joint/volume_budget.h"
 #include "relax/state/targets.h"
 
 namespace hexwright::relax {
@@ -41,19 +41,24 @@ constexpr std::size_t kMaxSeeds = 3;
 constexpr std::size_t kFewRegions = 1000, kHexesPerRegion = 40;
 constexpr std::size_t kBatch = 32;  // regions solved at the same time; fixed, so that the result is
 
+double volume_of(const HexMesh& mesh) {
+  double volume = 0;
+  for (HexId h : mesh.hexes.ids()) volume += hex_volume(mesh.corners(h));
+  return volume;
+}
+
 class JointLifter {
  public:
   JointLifter(FitState& state, const FitTarget& target)
       : state_(state),
         target_(target),
+        budget_(kVolumeChange * volume_of(state.mesh)),
         num_regions_left_(kFewRegions + state.mesh.num_hexes() / kHexesPerRegion),
         quality_(compute_scaled_jacobians(state.mesh)),
         batch_of_(state.mesh.num_hexes(), 0),
         hex_mark_(state.mesh.num_hexes(), 0),
         vert_mark_(state.num_verts(), 0),
-        is_tried_(state.mesh.num_hexes(), 0) {
-    for (HexId h : state.mesh.hexes.ids()) volume_ += hex_volume(state.mesh.corners(h));
-  }
+        is_tried_(state.mesh.num_hexes(), 0) {}
 
   void run(const JointStage& stage, const Context& context) {
     std::fill(is_tried_.begin(), is_tried_.end(), 0);
@@ -166,7 +171,7 @@ class JointLifter {
         },
         1);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (!solved[i] || !spend_volume(solved[i]->volume_change())) continue;
+      if (!solved[i] || !budget_.spend(solved[i]->volume_change())) continue;
       solved[i]->apply(state_);
       // What a neighbour's solution touched is worth another try.
       for (HexId h : batch[i].hexes()) {
@@ -176,17 +181,9 @@ class JointLifter {
     }
   }
 
-  // Whether the change is within what is left, or leads back to the volume that was.
-  bool spend_volume(double change) {
-    const double total = volume_change_ + change;
-    if (std::abs(total) > std::max(kVolumeChange * volume_, std::abs(volume_change_))) return false;
-    volume_change_ = total;
-    return true;
-  }
-
   FitState& state_;
   const FitTarget& target_;
-  double volume_ = 0, volume_change_ = 0;  // of all hexes
+  VolumeBudget budget_;  // of all solutions
   std::size_t num_regions_left_;
   IdVector<HexId, double> quality_;
   std::vector<int> batch_of_;              // per hex: the last batch with a region that holds it

@@ -8,30 +8,9 @@
 
 namespace hexwright::relax {
 
-/// Adds `rings` rings of hex-neighbours to a set of vertices.
-void grow_vert_set(const FitState& state, std::vector<char>& is_member, int rings);
-
 /// A new attachment weight moves the boundary of a region (one entry per vertex); its inside
 /// follows where the boundary moved.
 void mark_boundary_dirty(FitState& state, const std::vector<char>& region);
-
-struct RefitOptions {
-  int max_rounds = 2;
-  double stuck = 0.04;  ///< residual, in h, of a vertex that did not reach its target
-  int rings = 2;
-  ShapeEnergy shape{0.9, 1, 0};
-};
-/// Fits the surroundings of stuck vertices anew, from a low to a high attachment weight.
-void refit_stuck(FitState& state, const FitTarget& target, const RefitOptions& options,
-                 const Context& context);
-
-struct PolishOptions {
-  int max_rounds = 8;
-  double low = 0.35;  ///< hexes with a scaled Jacobian below are worked on
-};
-/// Raises the worst scaled Jacobians with an energy that the worst corners dominate.
-void polish_worst(FitState& state, const FitTarget& target, const PolishOptions& options,
-                  const Context& context);
 
 /// Moves boundary vertices onto their targets, halving the way up to five times, while the least
 /// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.

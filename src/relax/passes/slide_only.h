@@ -12,11 +12,10 @@ class SlideOnly {
  public:
   SlideOnly(FitState& state, const std::vector<char>& region, bool hold_curves = false)
       : state_(state) {
-    constexpr MoveIn kMove[] = {MoveIn::Space, MoveIn::Plane, MoveIn::Line, MoveIn::Point};
     for (VertId v : state.kind.ids()) {
       if (!region[v.index()] || !state.is_boundary(v) || state.move[v] != MoveIn::Space) continue;
       const bool is_held = hold_curves && state.kind[v] == VertKind::Curve;
-      state.move[v] = is_held ? MoveIn::Point : kMove[static_cast<std::size_t>(state.kind[v])];
+      state.move[v] = is_held ? MoveIn::Point : hold_of(state.kind[v]).slide;
       state.axis[v] = normalized(state.direction[v]);
       verts_.push_back(v);
     }

@@ -13,8 +13,10 @@ constexpr double kEdgeFloor = 0.15;
 
 struct SweepOptions {
   ShapeEnergy shape;
-  double weight = 0;        ///< of the attachment; divided by h^2 at each vertex
-  double tolerance = 0.03;  ///< a move shorter than this (in h) makes no neighbour dirty
+  double weight = 0;            ///< of the attachment; divided by h^2 at each vertex
+  double tolerance = 0.03;      ///< a move shorter than this (in h) makes nothing dirty
+  bool marks_neighbors = true;  ///< a longer one makes the neighbours dirty too, not itself alone
+  double max_step = 1;          ///< longest move of one solve, in h
   /// When positive: a move that takes the least scaled Jacobian around the vertex below this, and
   /// below what it was, is undone.
   double quality_floor = 0;
@@ -30,20 +32,20 @@ struct SweepOptions {
 
 /// Solves every dirty vertex once, colour by colour; returns how many. The same for any number of
 /// threads.
-std::size_t sweep(FitState& state, const SweepOptions& options);
+std::size_t sweep(Body& body, const SweepOptions& options);
 
 /// Solves the given vertices once each.
 class LocalSweep {
  public:
   /// `is_member`: one entry per vertex.
-  LocalSweep(const FitState& state, const std::vector<char>& is_member);
-  void run(FitState& state, const SweepOptions& options) const;
+  LocalSweep(const Body& body, const std::vector<char>& is_member);
+  void run(Body& body, const SweepOptions& options) const;
   /// Those of them that are dirty.
-  void run_dirty(FitState& state, const SweepOptions& options) const;
+  void run_dirty(Body& body, const SweepOptions& options) const;
   std::size_t num_verts() const { return verts_.size(); }
 
  private:
-  void run(FitState& state, const SweepOptions& options, bool only_dirty) const;
+  void run(Body& body, const SweepOptions& options, bool only_dirty) const;
 
   std::vector<std::size_t> offset_;  // per colour
   std::vector<VertId> verts_;

@@ -41,15 +41,17 @@ void FitState::resize_arrays() {
 std::vector<char> FitState::inside_hexes() const {
   std::vector<char> inside(mesh.num_hexes(), side == Side::Inside);
   if (side == Side::Both)
-    for (HexId h : mesh.hexes.ids()) inside[h.index()] = mesh.region[h] == kInsideRegion;
+    for (HexId h : mesh.hexes.ids()) inside[h.index()] = mesh.region[h] != kOutsideRegion;
   return inside;
 }
 
 bool FitState::is_fitted_face(const HexFace& face) const {
   const HexId other = neighbors.neighbor[face.hex][static_cast<std::size_t>(face.lf)];
   if (side == Side::Both) {
-    if (mesh.region[face.hex] != kInsideRegion) return false;
-    if (other.is_valid() && mesh.region[other] == kInsideRegion) return false;
+    const std::int32_t here = mesh.region[face.hex];
+    if (here == kOutsideRegion) return false;
+    const std::int32_t there = other.is_valid() ? mesh.region[other] : kOutsideRegion;
+    if (there == here || (there != kOutsideRegion && there < here)) return false;
   } else if (other.is_valid()) {
     return false;
   }
@@ -74,9 +76,7 @@ void FitState::find_quads() {
 
 void FitState::rebuild() {
   resize_arrays();
-  vert_to_hex = VertToHex(mesh);
-  stars = VertexStars(mesh, vert_to_hex);
-  colors = VertexColors(mesh, vert_to_hex);
+  derive(VertToHex(mesh));
   neighbors = compute_hex_neighbors(mesh);
   find_quads();
   for (const auto& quad : quads)
@@ -87,30 +87,21 @@ void FitState::rebuild() {
 }
 
 void FitState::update_sizes() {
-  const std::size_t n = num_verts();
-  std::vector<int> count(n, 0);
-  size.assign(n, 0);
+  IdVector<VertId, double> sum(num_verts(), 0);
+  IdVector<VertId, int> count(num_verts(), 0);
   for (const auto& quad : quads) {
     for (std::size_t k = 0; k < 4; ++k) {
       const VertId a = quad[k], b = quad[(k + 1) % 4];
       const double length = distance(mesh.positions[a], mesh.positions[b]);
       for (VertId v : {a, b}) {
-        size[v] += length;
-        ++count[v.index()];
+        sum[v] += length;
+        ++count[v];
       }
     }
   }
-  for (VertId v : size.ids()) {
-    if (count[v.index()] > 0) {
-      size[v] /= count[v.index()];
-      continue;
-    }
-    double sum = 0;
-    for (const HexStar& star : stars[v])
-      for (std::size_t k = 0; k < 3; ++k)
-        sum += distance(mesh.positions[star[k]], mesh.positions[v]);
-    size[v] = stars[v].empty() ? 1 : sum / (3.0 * static_cast<double>(stars[v].size()));
-  }
+  size = mean_edge_lengths(*this);
+  for (VertId v : size.ids())
+    if (count[v] > 0) size[v] = sum[v] / count[v];
 }
 
 }  // namespace hexwright::relax

@@ -9,14 +9,10 @@
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/geometry/patch_index.h"
 #include "hexwright/geometry/side.h"
-#include "hexwright/mesh/hex_adjacency.h"
 
-#include "relax/kernel/vertex_newton.h"
+#include "relax/kernel/body.h"
 
 namespace hexwright::relax {
-
-/// What part of the surface a vertex belongs to. Interior vertices belong to none.
-enum class VertKind : std::uint8_t { Interior, Surface, Curve, Corner };
 
 /// Where and how a Surface vertex last looked for its target: unless one of these changes, it would
 /// find the same again.
@@ -27,19 +23,19 @@ struct TargetQuery {
 };
 
 /// Copied as a whole to try a variant and go back.
-struct FitState {
-  explicit FitState(HexMesh hex_mesh) : mesh(std::move(hex_mesh)) {
+struct FitState : Body {
+  explicit FitState(HexMesh hex_mesh) : Body(std::move(hex_mesh)) {
     mesh.mid_nodes.reset();  // vertices are about to move
     rebuild();
   }
 
-  static constexpr std::int32_t kInsideRegion = 1, kOutsideRegion = 2;  ///< tags with Side::Both
+  /// Tags with Side::Both; any other is one more object, beside the first and the outside.
+  static constexpr std::int32_t kInsideRegion = 1, kOutsideRegion = 2;
 
-  HexMesh mesh;
   Side side = Side::Inside;  ///< of the surface that the hexes are on
 
-  // Where each vertex belongs (set by the mapping; `rebuild` makes new boundary vertices Surface).
-  IdVector<VertId, VertKind> kind;
+  // Where each vertex belongs, beside its kind (set by the mapping; `rebuild` makes new boundary
+  // vertices Surface).
   IdVector<VertId, PatchId> patch;         ///< of Surface vertices; invalid = anywhere
   IdVector<VertId, CurveId> curve;         ///< of Curve vertices
   IdVector<VertId, double> arc;            ///< of Curve vertices: arc length on the curve
@@ -47,26 +43,17 @@ struct FitState {
   /// Of Surface vertices: how far outwards from the surface they belong (see balance.h).
   IdVector<VertId, double> offset;
 
-  // What each vertex is pulled to (set by update_targets).
-  IdVector<VertId, Vec3> target;
-  IdVector<VertId, Vec3> direction;     ///< Surface: normal; Curve: tangent (maybe shorter than 1)
-  IdVector<VertId, TargetQuery> query;  ///< of Surface vertices: what target and direction are for
-  IdVector<VertId, MoveIn> move;        ///< vertices on a fixed outer boundary move in it only
-  IdVector<VertId, Vec3> axis;          ///< of that plane or line
-  IdVector<VertId, double> size;        ///< h: mean length of boundary edges (inside: of all edges)
-  IdVector<VertId, char> is_dirty;      ///< worth solving: it, a neighbour or its target moved
+  /// Of Surface vertices: what target and direction (set by update_targets) are for.
+  IdVector<VertId, TargetQuery> query;
 
-  // Derived from the mesh by rebuild().
-  VertToHex vert_to_hex;
-  VertexStars stars;
-  VertexColors colors;
+  // Derived from the mesh by rebuild(), as the body is; sizes are those of boundary edges there.
   HexNeighbors neighbors;
   /// Quads to be fitted to the surface, counter-clockwise seen from the object's outside; quad q is
-  /// quad_face[q]. With Side::Both they are the faces of region kInsideRegion towards the other.
+  /// quad_face[q]. With Side::Both they are the faces between two regions, on the side of the
+  /// object, of two objects on that of the lower tag.
   std::vector<std::array<VertId, 4>> quads;
   std::vector<HexFace> quad_face;
 
-  std::size_t num_verts() const { return mesh.num_verts(); }
   bool is_boundary(VertId v) const { return kind[v] != VertKind::Interior; }
   /// Distance from the vertex to what it is attached to, in units of its size.
   double residual(VertId v) const;
@@ -83,7 +70,6 @@ struct FitState {
   void update_sizes();
   /// 1 per hex inside the object (all or none unless Side::Both).
   std::vector<char> inside_hexes() const;
-  void mark_all_dirty() { is_dirty.assign(num_verts(), 1); }
   /// Grows the per-vertex arrays to the number of positions (called by rebuild).
   void resize_arrays();
 

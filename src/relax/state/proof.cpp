@@ -22,9 +22,9 @@ std::vector<HexId> find_unproven(const HexMesh& mesh) {
   return unproven;
 }
 
-int count_unproven_around(const FitState& state, VertId v) {
+int count_unproven_around(const Body& body, VertId v) {
   int count = 0;
-  for (const HexCorner& corner : state.vert_to_hex[v]) count += !is_proven(state.mesh, corner.hex);
+  for (const HexCorner& corner : body.vert_to_hex[v]) count += !is_proven(body.mesh, corner.hex);
   return count;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "relax/state/fit_state.h"
+#include "relax/kernel/body.h"
 
 namespace hexwright::relax {
 
@@ -15,6 +15,6 @@ std::vector<HexId> find_unproven(const HexMesh& mesh);
 constexpr double kProvenQuality = 0.5;
 
 /// How many of them are at the vertex.
-int count_unproven_around(const FitState& state, VertId v);
+int count_unproven_around(const Body& body, VertId v);
 
 }  // namespace hexwright::relax

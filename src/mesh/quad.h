@@ -1,0 +1,25 @@
+// Small functions of quads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "hexwright/base/vec3.h"
+#include "hexwright/mesh/element_ids.h"
+
+namespace hexwright {
+
+/// A quad as a key: its vertices, whatever the one it starts with and the way around.
+inline std::array<VertId, 4> sorted(std::array<VertId, 4> quad) {
+  std::sort(quad.begin(), quad.end());
+  return quad;
+}
+
+/// Half the length of the diagonals' cross product: exact for plane quads, for others the area of
+/// the projection that is largest. `positions`: indexed by vertex.
+template <class Positions>
+double quad_area(const Positions& positions, const std::array<VertId, 4>& q) {
+  return 0.5 * norm(cross(positions[q[2]] - positions[q[0]], positions[q[3]] - positions[q[1]]));
+}
+
+}  // namespace hexwright
