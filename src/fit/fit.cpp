@@ -205,7 +205,10 @@ class Fitter {
     clock_.run("prove", 0.985, [&] { prove(a); });
   }
 
-  void prove(Attempt& a) { report_.unproven = mend_unproven(a.state, target(a), context_); }
+  void prove(Attempt& a) {
+    const double slack = options_.tolerance * surface_.diagonal();
+    report_.unproven = mend_unproven(a.state, target(a), slack, context_);
+  }
 
   FitState keep_hexes(const HexMesh& background) {
     if (!options_.do_carve) return FitState(background);
@@ -420,10 +423,11 @@ class Fitter {
                 SurfaceParts{std::move(features_), std::move(result.patches)})};
   }
 
-  // The name that the whole surface has is that of the solid.
+  // The name that the whole surface has is that of the solid; around it, that of its faces.
   void name_body(FitState& state) const {
     const std::string name = name_of_body(surface_.surface());
-    if (name.empty() || state.side == Side::Outside) return;
+    if (name.empty()) return;
+    if (state.side == Side::Outside) return name_all_patches(name, state.mesh.labels);
     state.mesh.region_names = {name};
     if (state.side == Side::Both) state.mesh.region_names = {"", name};
   }

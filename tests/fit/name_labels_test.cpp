@@ -101,5 +101,17 @@ TEST(NameLabels, OneNameForAllIsThatOfTheBody) {
   EXPECT_EQ(unnamed.positions, mesh.positions);
 }
 
+TEST(NameLabels, AroundABodyItsNameIsThatOfItsFaces) {
+  TriMesh surface = cube_with_divided_top();
+  surface.group.assign(surface.num_tris(), 1);
+  FitOptions options;
+  options.carve.side = Side::Outside;
+  const HexMesh mesh = fit_to(surface, options);
+  EXPECT_TRUE(mesh.region_names.empty());
+  const auto area = area_by_name(mesh);
+  ASSERT_EQ(area.size(), 6u);
+  for (int i = 1; i <= 6; ++i) EXPECT_NEAR(area.at("left." + std::to_string(i)), 1, 1e-6) << i;
+}
+
 }  // namespace
 }  // namespace hexwright

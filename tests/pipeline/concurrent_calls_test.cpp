@@ -1,9 +1,12 @@
-// The library keeps no state of its own: calls in several threads do not meet.
+// The library keeps no state of its own: calls in several threads do not meet, and neither do the
+// threads within one. What the thread sanitizer watches (scripts/threads).
 #include <atomic>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "hexwright/base/parallel.h"
+#include "hexwright/io/surface_io.h"
 #include "hexwright/pipeline/mesh_surface.h"
 
 #include "helpers.h"
@@ -27,6 +30,26 @@ TEST(ConcurrentCalls, OfMeshSurfaceGiveWhatEachGivesAlone) {
     EXPECT_EQ(together[i].mesh.hexes.raw(), alone[i].mesh.hexes.raw());
     EXPECT_EQ(together[i].warnings, alone[i].warnings);
   }
+}
+
+/// A bundled part with holes, sharp edges and wall layers, in second order: nearly every stage.
+MeshResult mesh_plate(int threads) {
+  const ThreadLimit limit(threads);
+  MeshOptions options;
+  options.sizing.max_level = 4;
+  options.max_rounds = 1;
+  options.order = 2;
+  options.layers.specs = {parse_layer_spec("*=first:1%,growth:1.2,count:2")};
+  const std::string path = std::string(HEXWRIGHT_SOURCE_DIR) + "/data/models/plate_holes.stl";
+  return mesh_surface(read_surface(path).mesh, options, {});
+}
+
+TEST(ConcurrentCalls, FourThreadsMakeTheMeshOfOne) {
+  const MeshResult one = mesh_plate(1), four = mesh_plate(4);
+  EXPECT_GT(one.mesh.num_hexes(), 100u);
+  EXPECT_EQ(four.mesh.positions.raw(), one.mesh.positions.raw());
+  EXPECT_EQ(four.mesh.hexes.raw(), one.mesh.hexes.raw());
+  EXPECT_EQ(four.layer.raw(), one.layer.raw());
 }
 
 TEST(ConcurrentCalls, CancelOnlyTheirOwn) {

@@ -160,7 +160,7 @@ TEST_F(FinishPasses, MendUnprovenProvesBentHexes) {
     }
     const double least = summarize_quality(state.mesh).min_scaled_jacobian;
     if (!(least > 0) || find_unproven(state.mesh).empty()) continue;
-    EXPECT_TRUE(mend_unproven(state, {box, nullptr}, {}).empty());
+    EXPECT_TRUE(mend_unproven(state, {box, nullptr}, 0, {}).empty());
     EXPECT_TRUE(find_unproven(state.mesh).empty());
     EXPECT_GE(summarize_quality(state.mesh).min_scaled_jacobian, std::min(least, 0.2));
     ++mended;
@@ -172,8 +172,42 @@ TEST_F(FinishPasses, MendUnprovenLeavesProvenMeshesAlone) {
   FitState state = fitted_ball(sphere);
   ASSERT_TRUE(find_unproven(state.mesh).empty());
   const auto before = state.mesh.positions;
-  EXPECT_TRUE(mend_unproven(state, target, {}).empty());
+  EXPECT_TRUE(mend_unproven(state, target, 0, {}).empty());
   EXPECT_EQ(state.mesh.positions, before);
+}
+
+/// A hex of an engraved letter: two corners and two points of one crease on top, which have slid
+/// past each other. All corners are positive, the Jacobian in the middle of an edge is not.
+HexMesh hex_on_a_crease() {
+  HexMesh mesh;
+  mesh.positions = {{-39.102, -3.69, -16.324},  {-36.79, -3.594, -18.331},
+                    {-36.202, -3.426, -17.68},  {-38.975, -4.023, -15.932},
+                    {-39.567, -4.408, -17.308}, {-36.232, -4.913, -17.382},
+                    {-36.232, -4.408, -17.308}, {-39.549, -4.525, -17.313}};
+  std::array<VertId, 8> hex;
+  for (int k = 0; k < 8; ++k) hex[static_cast<std::size_t>(k)] = VertId(k);
+  mesh.hexes.push_back(hex);
+  return mesh;
+}
+
+TEST_F(FinishPasses, FreeUnprovenLeavesTheSurfaceAsFarAsItIsAllowed) {
+  const HexMesh mesh = hex_on_a_crease();
+  const SurfaceTree surface(test::surface_of(mesh));
+  const std::vector<HexId> unproven = find_unproven(mesh);
+  ASSERT_EQ(unproven, std::vector<HexId>{HexId(0)});
+  ASSERT_GT(scaled_jacobian(mesh.corners(HexId(0))), 0);
+  for (const double slack : {0.001, 0.7}) {
+    FitState state(mesh);
+    update_targets(state, {surface, nullptr}, 0);
+    free_unproven(state, unproven, slack, 0.1);
+    const bool is_free = slack > 0.1;
+    EXPECT_EQ(find_unproven(state.mesh).empty(), is_free) << slack;
+    EXPECT_EQ(state.mesh.positions == mesh.positions, !is_free) << slack;
+    for (VertId v : mesh.positions.ids())
+      EXPECT_LE(distance(state.mesh.positions[v], mesh.positions[v]), slack + 1e-12);
+    EXPECT_GE(scaled_jacobian(state.mesh.corners(HexId(0))),
+              std::min(0.1, scaled_jacobian(mesh.corners(HexId(0)))));
+  }
 }
 
 TEST_F(FinishPasses, SnapGoesAsFarAsQualityAllows) {

@@ -64,3 +64,88 @@ def eighth_shell(path: Path, inner=1.0, outer=2.0, segments=120):
     shell.grid("ymin", [[point(r, up, 0) for up in angles] for r in (outer, inner)])
     shell.grid("xmin", [[point(r, up, math.pi / 2) for up in angles] for r in (inner, outer)])
     shell.write(path)
+
+
+def quarter_ellipse(path: Path, heights, segments=360):
+    """A quarter of an elliptic plate with an elliptic hole (of the NAFEMS benchmarks LE1 and LE10) between the first and
+    the last of the heights: patches inner, bottom, top, xmin, ymin, and outer0, outer1 ... between the heights."""
+    angles = [math.pi / 2 * k / segments for k in range(segments + 1)]
+
+    def arc(a, b, z):
+        return [(a * math.cos(t) if k < segments else 0.0, b * math.sin(t), z) for k, t in enumerate(angles)]
+
+    def inner(z):
+        return arc(2.0, 1.0, z)
+
+    def outer(z):
+        return arc(3.25, 2.75, z)
+
+    low, high = heights[0], heights[-1]
+    plate = Surface()
+    for k, (z, above) in enumerate(zip(heights, heights[1:])):
+        plate.grid(f"outer{k}", [outer(z), outer(above)])
+    plate.grid("inner", [inner(z) for z in heights[::-1]])
+    plate.grid("bottom", [inner(low), outer(low)])
+    plate.grid("top", [outer(high), inner(high)])
+    plate.grid("xmin", [[outer(z)[-1], inner(z)[-1]] for z in heights])
+    plate.grid("ymin", [[inner(z)[0], outer(z)[0]] for z in heights])
+    plate.write(path)
+
+
+def quarter_of_revolution(path: Path, inner, outer, segments=180):
+    """A quarter of a body between two profiles, lists of (name, points (r, z)) from below; both have the same number of
+    points. Patches of these names, bottom, top and, where it is cut, xmin and ymin."""
+    angles = [math.pi / 2 * k / segments for k in range(segments + 1)]
+
+    def circle(point):
+        r, z = point
+        return [(r * math.cos(t) if k < segments else 0.0, r * math.sin(t), z) for k, t in enumerate(angles)]
+
+    body = Surface()
+    for name, points in outer:
+        body.grid(name, [circle(p) for p in points])
+    for name, points in inner:
+        body.grid(name, [circle(p) for p in points[::-1]])
+    inside, outside = ([p for _, points in part for p in points] for part in (inner, outer))
+    body.grid("bottom", [circle(inside[0]), circle(outside[0])])
+    body.grid("top", [circle(outside[-1]), circle(inside[-1])])
+    body.grid("ymin", [[(a[0], 0.0, a[1]), (b[0], 0.0, b[1])] for a, b in zip(inside, outside) if a != b])
+    body.grid("xmin", [[(0.0, b[0], b[1]), (0.0, a[0], a[1])] for a, b in zip(inside, outside) if a != b])
+    body.write(path)
+
+
+def quarter_plate_with_hole(path: Path, radius=1.0, width=20.0, height=1.0, segments=180):
+    """A quarter of a square plate: patches hole, xmax, ymax, bottom, top and, where it is cut, xmin and ymin."""
+    angles = [math.pi / 2 * k / segments for k in range(segments + 1)]
+
+    def hole(z):
+        return [(radius * math.cos(t) if k < segments else 0.0, radius * math.sin(t), z) for k, t in enumerate(angles)]
+
+    def edge(z):
+        """Where the ray of each angle leaves the plate; one of them meets its corner."""
+        return [(width if t < math.pi / 4 + 1e-9 else width / math.tan(t) if k < segments else 0.0,
+                 width * math.tan(t) if t < math.pi / 4 - 1e-9 else width, z) for k, t in enumerate(angles)]
+
+    half = segments // 2
+    plate = Surface()
+    plate.grid("xmax", [edge(0)[:half + 1], edge(height)[:half + 1]])
+    plate.grid("ymax", [edge(0)[half:], edge(height)[half:]])
+    plate.grid("hole", [hole(height), hole(0)])
+    plate.grid("bottom", [hole(0), edge(0)])
+    plate.grid("top", [edge(height), hole(height)])
+    plate.grid("xmin", [[edge(z)[-1], hole(z)[-1]] for z in (0, height)])
+    plate.grid("ymin", [[hole(z)[0], edge(z)[0]] for z in (0, height)])
+    plate.write(path)
+
+
+def box(path: Path, low, high):
+    """Patches xmin, xmax ... zmax."""
+    def corner(bits):
+        return tuple((low, high)[bits >> axis & 1][axis] for axis in range(3))
+
+    faces = {"xmin": (0, 4, 6, 2), "xmax": (1, 3, 7, 5), "ymin": (0, 1, 5, 4), "ymax": (2, 6, 7, 3), "zmin": (0, 2, 3, 1),
+             "zmax": (4, 5, 7, 6)}
+    body = Surface()
+    for name, (a, b, c, d) in faces.items():
+        body.grid(name, [[corner(a), corner(b)], [corner(d), corner(c)]])
+    body.write(path)

@@ -12,11 +12,17 @@ import sys
 import tempfile
 from pathlib import Path
 
+import openfoam
+
 SKIPPED = 77
-#: Modules and programs; the picture; what is printed, and between which values the number in it lies.
+#: Modules and programs; the picture; what is printed, and between which values the number in it lies. Of the flow about a
+#: sphere it is the largest error of the pressure, in percent.
 EXAMPLES = {
     "calculix": (["numpy", "matplotlib"], ["ccx"], "bracket.png", r"von Mises stress ([0-9.]+)", (95, 125)),
     "scikit-fem": (["skfem", "meshio", "matplotlib"], [], "heat.png", r"heat flow ([0-9.]+)", (714, 715)),
+    "mfem": (["mfem", "numpy", "matplotlib"], [], "bracket.png", r"von Mises stress ([0-9.]+)", (90, 115)),
+    "openfoam": (["numpy", "matplotlib"], ["checkMesh", "potentialFoam", "postProcess"], "sphere.png",
+                 r"(?s)Mesh OK.*largest error ([0-9.]+) %", (0, 3)),
 }
 
 
@@ -35,7 +41,8 @@ def main() -> int:
         for command in commands:
             words = shlex.split(command)
             words[0] = {"hexwright": hexwright, "python3": sys.executable}.get(words[0], words[0])
-            done = subprocess.run(words, cwd=examples / name, capture_output=True, text=True, timeout=300)
+            done = subprocess.run(words, cwd=examples / name, env=openfoam.environment(),
+                                  capture_output=True, text=True, timeout=300)
             assert done.returncode == 0, f"{command}\n{done.stdout[-3000:]}{done.stderr[-3000:]}"
             output += done.stdout
         value = float(re.search(pattern, output)[1])

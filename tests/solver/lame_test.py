@@ -114,17 +114,6 @@ def write_deck(folder: Path, body, element: str):
     return deck
 
 
-def count_hexes(mesh: Path, nodes_per_hex: int) -> int:
-    """Elements of a mesh in Abaqus's format."""
-    numbers, is_inside = 0, False
-    for line in mesh.read_text().splitlines():
-        if line.startswith("*"):
-            is_inside = line.startswith("*ELEMENT")
-        elif is_inside:
-            numbers += sum(1 for word in line.split(",") if word.strip())
-    return numbers // (nodes_per_hex + 1)
-
-
 def measure(hexwright: str, folder: Path, body, options: list[str], element: str, surface: Path | None = None):
     """Number of hexes, relative error of u over the nodes, of the largest hoop stress among the nodes inside, and the
     largest error of any of these."""
@@ -147,7 +136,7 @@ def measure(hexwright: str, folder: Path, body, options: list[str], element: str
         body.hoop(found["STRESS"][n], nodes[n]) / body.largest_hoop - 1 for n in calculix.set_nodes(mesh, "inner_NODES")
     ]
     return (
-        count_hexes(mesh, 20 if element.startswith("C3D20") else 8),
+        calculix.count_elements(mesh, 20 if element.startswith("C3D20") else 8),
         np.linalg.norm(u - exact) / np.linalg.norm(exact),
         abs(max(hoop)),
         max(map(abs, hoop)),

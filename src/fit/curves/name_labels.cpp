@@ -86,4 +86,13 @@ void name_labels(const SurfaceTree& tree, const PatchIndex& patches, const Featu
   mesh.labels.curve_names = name_curves(surface, features);
 }
 
+void name_all_patches(const std::string& name, BoundaryLabels& labels) {
+  std::size_t num_patches = 0;
+  for (const LabeledQuad& quad : labels.quads)
+    if (quad.patch.is_valid()) num_patches = std::max(num_patches, quad.patch.index() + 1);
+  std::vector<std::string> names(num_patches, name);
+  number_repeated(names);
+  labels.patch_names = IdVector<PatchId, std::string>(std::move(names));
+}
+
 }  // namespace hexwright::fitting

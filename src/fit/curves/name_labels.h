@@ -1,6 +1,8 @@
 // From the names of a surface's groups to names of the mesh's patches and curves.
 #pragma once
 
+#include <string>
+
 #include "hexwright/geometry/feature_graph.h"
 #include "hexwright/geometry/patch_index.h"
 #include "hexwright/mesh/hex_mesh.h"
@@ -14,5 +16,8 @@ namespace hexwright::fitting {
 /// "wall.1", "wall.2"; one patch alone is "wall".
 void name_labels(const SurfaceTree& tree, const PatchIndex& patches, const FeatureGraph& features,
                  HexMesh& mesh);
+
+/// Gives every patch this name, numbered where there are several.
+void name_all_patches(const std::string& name, BoundaryLabels& labels);
 
 }  // namespace hexwright::fitting

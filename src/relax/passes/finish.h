@@ -49,7 +49,13 @@ void raise_average(FitState& state, const FitTarget& target, const AverageOption
                    const Context& context);
 
 /// Works on hexes whose Jacobian is not proven positive everywhere inside, letting go of the
-/// surface around them more and more; returns those that remain.
-std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context);
+/// surface around them more and more, by `slack` (a length) in the end; returns those that remain.
+std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, double slack,
+                                 const Context& context);
+
+/// The last of it: moves vertices of these hexes one at a time to where the hexes around them are
+/// positive inside, boundary vertices by at most `slack` (and their size) off where they belong. No
+/// scaled Jacobian falls below min(what was the least there, `floor`). Requires current targets.
+void free_unproven(FitState& state, const std::vector<HexId>& unproven, double slack, double floor);
 
 }  // namespace hexwright::relax

@@ -15,6 +15,8 @@ namespace hexwright::relax {
 namespace {
 
 constexpr double kMaxResidual = 0.05;  // in h: a proof is not worth more distance
+// Of quality, besides what there was: a poor hex is better than one that is not valid.
+constexpr double kLastFloors[] = {1, 0.2, 0.1};
 
 double worst_residual(const FitState& state, const std::vector<char>& region) {
   double worst = 0;
@@ -23,7 +25,7 @@ double worst_residual(const FitState& state, const std::vector<char>& region) {
   return worst;
 }
 
-// First only sliding, then a little off the surface; what that does not mend stays in the report.
+// First only sliding, then a little off the surface.
 struct Attempt {
   bool slides;
   int power;
@@ -62,7 +64,8 @@ void try_attempt(FitState& state, const FitTarget& target, const std::vector<cha
 
 }  // namespace
 
-std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const Context& context) {
+std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, double slack,
+                                 const Context& context) {
   auto unproven = find_unproven(state.mesh);
   if (unproven.empty()) return unproven;
   const auto quality = compute_scaled_jacobians(state.mesh);
@@ -70,6 +73,12 @@ std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, const
   for (const Attempt& attempt : kAttempts) {
     context.check_cancelled();
     try_attempt(state, target, surroundings(state, unproven), attempt, floor);
+    unproven = find_unproven(state.mesh);
+    if (unproven.empty()) return unproven;
+  }
+  update_targets(state, target, 0);
+  for (double last : kLastFloors) {
+    free_unproven(state, unproven, slack, std::min(floor, last));
     unproven = find_unproven(state.mesh);
     if (unproven.empty()) break;
   }
