@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "dual/complex/base_mesh.h"
+#include "dual/complex/double_links.h"
 #include "dual/domain/core_planes.h"
 #include "dual/domain/crossed_cells.h"
-#include "dual/complex/double_links.h"
 #include "dual/pillows/pillow_stack.h"
 
 namespace hexwright::dual {

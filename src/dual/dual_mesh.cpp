@@ -4,8 +4,8 @@
 #include "hexwright/base/parallel.h"
 
 #include "dual/build_complex.h"
-#include "dual/optimize.h"
 #include "dual/complex/positions.h"
+#include "dual/optimize.h"
 #include "dual/quality_of_hex.h"
 
 namespace hexwright {

@@ -2,8 +2,8 @@
 // domain's boundary.
 #pragma once
 
-#include "dual/domain/domain.h"
 #include "dual/complex/hex_complex.h"
+#include "dual/domain/domain.h"
 
 namespace hexwright::dual {
 

@@ -3,8 +3,8 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
-#include "dual/domain/domain.h"
 #include "dual/complex/hex_complex.h"
+#include "dual/domain/domain.h"
 
 namespace hexwright::dual {
 

@@ -3,8 +3,8 @@
 
 #include "hexwright/base/context.h"
 
-#include "dual/domain/domain.h"
 #include "dual/complex/hex_complex.h"
+#include "dual/domain/domain.h"
 #include "dual/pillows/pillow.h"
 
 namespace hexwright::dual {

@@ -2,9 +2,9 @@
 // the object, and the curves in which parts meet are its edges.
 #include <algorithm>
 
-#include "geometry/topology/bodies.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/unite_solids.h"
+#include "geometry/topology/bodies.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "geometry/tree/triangle_math.h"
 #include "mesh/tri_measures.h"
