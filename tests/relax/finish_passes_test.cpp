@@ -7,6 +7,7 @@
 #include "fit/fit_helpers.h"
 #include "fit/sheets/pad_boundary.h"
 #include "relax/passes/finish.h"
+#include "relax/passes/pass.h"
 #include "relax/passes/sweep.h"
 #include "relax/state/proof.h"
 #include "relax/state/targets.h"

@@ -2,7 +2,7 @@
 #include "hexwright/grid/locate.h"
 #include "hexwright/grid/sizing.h"
 
-namespace hexwright::grids {
+namespace hexwright {
 
 std::vector<char> mark_cells_with_points(const Grid& grid, std::span<const Vec3> points,
                                          int max_level) {
@@ -14,4 +14,4 @@ std::vector<char> mark_cells_with_points(const Grid& grid, std::span<const Vec3>
   return marks;
 }
 
-}  // namespace hexwright::grids
+}  // namespace hexwright

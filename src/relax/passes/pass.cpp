@@ -63,6 +63,11 @@ std::vector<char> find_stuck(const FitState& state, double limit) {
 
 }  // namespace
 
+void mark_boundary_dirty(FitState& state, const std::vector<char>& region) {
+  for (VertId v : state.kind.ids())
+    if (region[v.index()] && state.is_boundary(v)) state.is_dirty[v] = 1;
+}
+
 bool run(const Pass& pass, Body& body, const Context& context) {
   HEXWRIGHT_ASSERT(pass.bad == Bad::Hexes);
   return run_rounds(
