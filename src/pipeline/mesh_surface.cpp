@@ -18,6 +18,7 @@
 #include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
 #include "pipeline/loop/outer_faces.h"
+#include "pipeline/loop/poor_hexes.h"
 #include "pipeline/size_search.h"
 
 namespace hexwright {
@@ -104,6 +105,8 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   const RoundInput input{target, options, stages, context};
   CompleteResult completed = complete_within_budget(input, result);
   Round best = lift_round(input, refine_where_missed(input, std::move(completed), result));
+  record_shape(best, result.rounds[static_cast<std::size_t>(result.best_round)]);
+  best = refine_where_poor(input, std::move(best), result);
   best = layer_round(input, std::move(best), result);
   if (options.exact) result.exact = put_on_exact_shape(input, best);
   apply_gate(input, best, result);

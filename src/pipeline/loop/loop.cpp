@@ -70,17 +70,6 @@ std::vector<char> find_needed_leaves(const RoundInput& input, const Grid& grid) 
   return is_needed;
 }
 
-/// Where the demands, those that are minor or the others, call for finer cells.
-std::vector<Vec3> collect_places(const RoundInput& input, const Round& round, bool minor) {
-  std::vector<Vec3> points;
-  for (const Demand& demand : demands()) {
-    if (!demand.places || demand.is_minor != minor) continue;
-    const std::vector<Vec3> places = demand.places(input, round);
-    points.insert(points.end(), places.begin(), places.end());
-  }
-  return points;
-}
-
 /// What only minor demands ask for may not cost more than this factor in cells.
 constexpr double kMinorGrowth = 1.5;
 
@@ -161,9 +150,16 @@ std::optional<double> scale_for_mean(const RoundInput& input, const Round& round
   return std::max(kLeastScale, scale);
 }
 
-namespace {
+std::vector<Vec3> collect_places(const RoundInput& input, const Round& round, bool minor) {
+  std::vector<Vec3> points;
+  for (const Demand& demand : demands()) {
+    if (!demand.places || demand.is_minor != minor) continue;
+    const std::vector<Vec3> places = demand.places(input, round);
+    points.insert(points.end(), places.begin(), places.end());
+  }
+  return points;
+}
 
-/// Leaves that hold a point and may be split.
 std::vector<char> mark_splittable(const RoundInput& input, const Grid& grid,
                                   std::span<const Vec3> points) {
   std::vector<char> marks = mark_cells_with_points(grid, points, deepest_level(input.options));
@@ -172,8 +168,6 @@ std::vector<char> mark_splittable(const RoundInput& input, const Grid& grid,
     if (marks[c.index()]) marks[c.index()] = may_split(grid, c, input.plan.sizes);
   return marks;
 }
-
-}  // namespace
 
 std::vector<char> mark_misses(const RoundInput& input, const Round& round) {
   std::vector<char> marks = mark_splittable(input, round.grid, collect_places(input, round, false));

@@ -21,6 +21,13 @@ bool is_better(const RoundInput& input, const Round& a, const Round& b);
 /// else is missed that this would not mend.
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round);
 
+/// Where the demands, those that are minor or the others, call for finer cells.
+std::vector<Vec3> collect_places(const RoundInput& input, const Round& round, bool minor);
+
+/// Leaves that hold a point and may be split: of the grid, 1 or 0 each.
+std::vector<char> mark_splittable(const RoundInput& input, const Grid& grid,
+                                  std::span<const Vec3> points);
+
 /// Leaves of the completed grid that hold the demands' places; when there are none but the topology
 /// is not the surface's, those of thin parts and gaps.
 std::vector<char> mark_misses(const RoundInput& input, const Round& round);

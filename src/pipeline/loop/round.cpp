@@ -20,12 +20,7 @@ RoundRecord make_record(const RoundInput& input, const Round& round, double seco
   record.num_cells = round.grid.num_cells();
   record.num_background = round.dual.num_hexes;
   record.num_hexes = round.fit.mesh.num_hexes();
-  if (round.verdict.distance) {
-    record.max_distance = round.verdict.distance->max_two_way();
-    record.mean_distance = round.verdict.distance->mean_two_way();
-  }
-  record.min_scaled_jacobian = round.verdict.quality.min_scaled_jacobian;
-  record.avg_scaled_jacobian = round.verdict.quality.avg_scaled_jacobian;
+  record_shape(round, record);
   record.num_components = round.verdict.topology.num_components;
   record.genus = round.verdict.topology.genus();
   record.is_valid = round.verdict.is_valid();
@@ -58,6 +53,15 @@ void find_refinable_features(const RoundInput& input, Round& round) {
 }
 
 }  // namespace
+
+void record_shape(const Round& round, RoundRecord& record) {
+  if (round.verdict.distance) {
+    record.max_distance = round.verdict.distance->max_two_way();
+    record.mean_distance = round.verdict.distance->mean_two_way();
+  }
+  record.min_scaled_jacobian = round.verdict.quality.min_scaled_jacobian;
+  record.avg_scaled_jacobian = round.verdict.quality.avg_scaled_jacobian;
+}
 
 bool is_within_gate(const RoundInput& input, const Round& round) {
   return round.verdict.is_valid() &&
@@ -125,6 +129,7 @@ Round lift_round(const RoundInput& input, Round round) {
   });
   const bool is_kept = meets_no_less(input, round, lifted);
   count(lifted.stages.back(), "lift kept", is_kept ? 1 : 0);
+  record_shape(lifted, lifted.record);
   if (is_kept) return lifted;
   round.stages = std::move(lifted.stages);  // the time is spent
   round.fit.memory.reset();

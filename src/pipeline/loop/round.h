@@ -41,6 +41,9 @@ struct Round {
 /// is asked for.
 void curve_round(const RoundInput& input, Round& round, const ExactShape* exact = nullptr);
 
+/// Notes distances and quality of the round's mesh as it is now.
+void record_shape(const Round& round, RoundRecord& record);
+
 /// Runs the stages on an already completed grid, without the lift.
 Round run_round(const RoundInput& input, CompleteResult completed);
 

@@ -1,0 +1,117 @@
+// One leaf in a few hundred is split, so the rest of the mesh stays as it was.
+#include "pipeline/loop/poor_hexes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hexwright/mesh/hex_adjacency.h"
+#include "hexwright/quality/hex_quality.h"
+
+namespace hexwright {
+namespace {
+
+/// Hexes are poor below this share of the lift's goal.
+constexpr double kPoorShare = 0.8;
+/// Where all of them would ask for too many cells, the worst alone are refined for: those below
+/// these shares of that.
+constexpr double kShares[] = {1, 0.75, 0.5};
+constexpr int kMostTries = 3;
+/// Of the cells from try to try, and of the hexes in all.
+constexpr double kMostGrowth = 1.5, kMostHexes = 1.6;
+
+/// Whether two boundary faces of the hex meet at an angle of which the sine is below `least`: no
+/// corner there has a larger scaled Jacobian.
+bool holds_wedge(const HexMesh& mesh, const HexNeighbors& neighbors, HexId h, double least) {
+  std::vector<std::array<VertId, 4>> faces;
+  std::vector<Vec3> normals;
+  for (int f = 0; f < 6; ++f) {
+    if (neighbors.neighbor[h][static_cast<std::size_t>(f)].is_valid()) continue;
+    faces.push_back(face_verts(mesh, {h, f}));
+    const auto& q = faces.back();
+    const auto& p = mesh.positions;
+    normals.push_back(normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]])));
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      const bool is_sharp = dot(normals[i], normals[j]) < 0;
+      const bool meet = std::ranges::any_of(
+          faces[i], [&](VertId v) { return std::ranges::find(faces[j], v) != faces[j].end(); });
+      if (meet && is_sharp && norm(cross(normals[i], normals[j])) < least) return true;
+    }
+  return false;
+}
+
+double least_quality(const Round& round) { return round.verdict.quality.min_scaled_jacobian; }
+
+bool is_any(const std::vector<char>& marks) {
+  return std::find(marks.begin(), marks.end(), 1) != marks.end();
+}
+
+/// Whether a grid grows little over the round's, and is within the budgets.
+bool is_affordable(const RoundInput& input, const Round& round, std::size_t num_cells,
+                   std::size_t num_spent) {
+  const Budgets& budgets = input.plan.budgets;
+  return static_cast<double>(num_cells) <=
+             kMostGrowth * static_cast<double>(round.grid.num_cells()) &&
+         num_cells <= budgets.background && num_spent + num_cells <= budgets.rounds;
+}
+
+/// The grid for another try, completed; absent when nothing can be split, or only at too many
+/// cells.
+std::optional<CompleteResult> next_try(const RoundInput& input, const Round& round, double goal,
+                                       std::span<const Vec3> missed, std::size_t num_spent) {
+  for (const double share : kShares) {
+    std::vector<Vec3> places = find_poor_places(round.fit.mesh, share * goal);
+    places.insert(places.end(), missed.begin(), missed.end());
+    const std::vector<char> marks = mark_splittable(input, round.grid, places);
+    if (!is_any(marks)) return {};
+    CompleteResult next = even_out(input, split_cells(round.grid, marks), true);
+    if (is_affordable(input, round, next.grid.num_cells(), num_spent)) return next;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Vec3> find_poor_places(const HexMesh& mesh, double goal) {
+  const IdVector<HexId, double> quality = compute_scaled_jacobians(mesh);
+  std::vector<Vec3> places;
+  std::optional<HexNeighbors> neighbors;
+  for (HexId h : quality.ids()) {
+    if (quality[h] >= goal) continue;
+    if (!neighbors) neighbors = compute_hex_neighbors(mesh);
+    if (holds_wedge(mesh, *neighbors, h, goal)) continue;
+    Vec3 center;
+    for (const Vec3& p : mesh.corners(h)) center += p / 8;
+    places.push_back(center);
+  }
+  return places;
+}
+
+Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& result) {
+  const double goal = kPoorShare * input.options.fit.lift_goal;
+  const auto most_hexes =
+      static_cast<std::size_t>(kMostHexes * static_cast<double>(lifted.fit.mesh.num_hexes()));
+  std::size_t num_spent = 0;
+  for (const RoundRecord& record : result.rounds) num_spent += record.num_background;
+  Round best = lifted, current = std::move(lifted);
+  for (int k = 0; k < kMostTries && result.num_rounds < input.options.max_rounds; ++k) {
+    if (least_quality(best) >= goal || best.verdict.quality.num_inverted > 0) break;
+    std::vector<Vec3> missed;
+    if (!meets_no_less(input, best, current)) missed = collect_places(input, current, false);
+    std::optional<CompleteResult> next = next_try(input, current, goal, missed, num_spent);
+    if (!next) break;
+    current = lift_round(input, run_round(input, std::move(*next)));
+    result.rounds.push_back(current.record);
+    num_spent += current.record.num_background;
+    ++result.num_rounds;
+    if (current.fit.mesh.num_hexes() > most_hexes || !meets_no_less(input, best, current) ||
+        least_quality(current) <= least_quality(best))
+      continue;
+    best = current;
+    result.best_round = result.num_rounds;
+  }
+  return best;
+}
+
+}  // namespace hexwright
