@@ -25,11 +25,9 @@ void run(const ImproveCommand& cmd, Program& program) {
   const Context context = program.console.start();
   HexMesh mesh = read_hex_mesh(cmd.input);
   ImproveOptions options = cmd.options;
-  std::optional<SurfaceTree> tree;
-  if (!cmd.surface.empty()) {
-    tree.emplace(load_surface(cmd.surface, program));
-    options.slide_on = &*tree;
-  }
+  std::optional<Target> target;
+  if (!cmd.surface.empty())
+    options.slide_on = &target.emplace(make_slide_target(load_surface(cmd.surface, program)));
   const ImproveReport report =
       naming_file(cmd.input, [&] { return improve(mesh, options, context); });
   write_mesh_with_quality(cmd.output, mesh, program.console);

@@ -165,8 +165,8 @@ nb::tuple improve_mesh(const HexMesh& input, const TriMesh* surface, const Call&
   const Warnings warnings = run_stage(call.run, [&](const Context& context) {
     if (const auto issue = input.find_problem())
       throw Error(ErrorCode::BadArgument, issue->message, "mesh");
-    std::optional<SurfaceTree> tree;
-    if (surface) options.slide_on = &tree.emplace(*surface);
+    std::optional<Target> target;
+    if (surface) options.slide_on = &target.emplace(make_slide_target(*surface));
     result = input;
     report = improve(result, options, context);
   });

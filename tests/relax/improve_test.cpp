@@ -95,11 +95,27 @@ TEST(Improve, SlidesTheBoundaryOnTheSurface) {
     if (cube > 0.99) p = normalized(p + Vec3{offset(rng), offset(rng), offset(rng)});
   }
   ImproveOptions options;
-  options.slide_on = &sphere;
+  const HexMesh before = mesh;
+  const Target target = wrap_target(sphere.surface());
+  options.slide_on = &target;
   const ImproveReport report = improve(mesh, options, {});
   EXPECT_GT(report.min_after, report.min_before + 0.01);
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
     for (VertId v : face_verts(mesh, face)) EXPECT_LT(sphere.distance(mesh.positions[v]), 2e-3);
+
+  // The same in millimetres, far away: by the target's frame.
+  const Vec3 shift{-3e4, 7e3, 1e5};
+  const auto move = [&](const Vec3& p) { return p * 1000 + shift; };
+  TriMesh moved_sphere = sphere.surface();
+  for (Vec3& p : moved_sphere.positions) p = move(p);
+  HexMesh moved = before;
+  for (Vec3& p : moved.positions) p = move(p);
+  const Target moved_target = make_slide_target(moved_sphere);
+  options.slide_on = &moved_target;
+  const ImproveReport moved_report = improve(moved, options, {});
+  EXPECT_NEAR(moved_report.min_after, report.min_after, 0.01);
+  for (VertId v : mesh.positions.ids())
+    EXPECT_LT(distance(moved.positions[v], move(mesh.positions[v])), 20);
 }
 
 TEST(Improve, RejectsBrokenIndices) {

@@ -2,15 +2,17 @@
 #pragma once
 
 #include "hexwright/base/context.h"
-#include "hexwright/geometry/surface_tree.h"
 #include "hexwright/mesh/hex_mesh.h"
+#include "hexwright/target/target.h"
 
 namespace hexwright {
 
 struct ImproveOptions {
   int max_rounds = 20;
-  double goal = 1.0;                      ///< stop when the least scaled Jacobian reaches this
-  const SurfaceTree* slide_on = nullptr;  ///< boundary vertices slide on it; null keeps them fixed
+  double goal = 1.0;  ///< stop when the least scaled Jacobian reaches this
+  /// Boundary vertices slide on its surface; null keeps them fixed. The mesh lies in the target's
+  /// world; it is worked on in unit coordinates, as in every other stage.
+  const Target* slide_on = nullptr;
 };
 
 struct ImproveReport {
@@ -22,6 +24,9 @@ struct ImproveReport {
   HexId bounding_hex;           ///< where the held boundary sets that bound
   bool worst_is_fixed = false;  ///< all vertices of the worst corner are held by the fixed boundary
 };
+
+/// A surface of any size to slide on: in unit coordinates, with nothing cleaned or turned.
+Target make_slide_target(const TriMesh& surface);
 
 /// Starts from any mesh; inverted elements are untangled first where that is possible.
 ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Context& context);

@@ -77,7 +77,7 @@ class Improver {
  private:
   // A mesh is better with a larger least scaled Jacobian, or the same least and a larger average.
   bool keep_if_better() {
-    if (options_.slide_on) snap_to_targets(state_, {*options_.slide_on, nullptr}, 0);
+    if (options_.slide_on) snap_to_targets(state_, {options_.slide_on->tree, nullptr}, 0);
     const QualitySummary now = summarize_quality(state_.mesh);
     const double gain = now.min_scaled_jacobian - best_min_;
     const bool better = gain > 1e-9 || (gain >= 0 && now.avg_scaled_jacobian > best_avg_);
@@ -92,7 +92,7 @@ class Improver {
   // Boundary vertices move in the surface's tangent plane; keep_if_better brings them back to it.
   void update_slide_targets(std::span<const char> only = {}) {
     if (!options_.slide_on) return;
-    update_targets(state_, {*options_.slide_on, nullptr}, 0, only);
+    update_targets(state_, {options_.slide_on->tree, nullptr}, 0, only);
     for (VertId v : state_.kind.ids()) {
       if (!state_.is_boundary(v) || is_held_[v]) continue;
       state_.move[v] = MoveIn::Plane;
@@ -171,6 +171,11 @@ class Improver {
 
 }  // namespace
 
+Target make_slide_target(const TriMesh& surface) {
+  const Similarity frame = compute_unit_frame(surface);
+  return wrap_target(to_unit(surface, frame), {}, frame);
+}
+
 ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Context& context) {
   const auto watch = context.watch();
   if (const auto issue = mesh.find_problem()) throw Error(ErrorCode::BadArgument, issue->message);
@@ -180,7 +185,14 @@ ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Contex
         "the nodes of second order are left out: vertices move, and edges become straight");
     mesh.mid_nodes.reset();
   }
-  return Improver(mesh, options, context).run();
+  if (!options.slide_on) return Improver(mesh, options, context).run();
+  const Similarity& frame = options.slide_on->frame;
+  HexMesh unit = to_unit(mesh, frame);
+  const IdVector<VertId, Vec3> before = unit.positions;
+  const ImproveReport report = Improver(unit, options, context).run();
+  for (VertId v : before.ids())  // the others keep every bit
+    if (!(unit.positions[v] == before[v])) mesh.positions[v] = frame.to_world(unit.positions[v]);
+  return report;
 }
 
 }  // namespace hexwright
