@@ -38,5 +38,6 @@ void add_view_command(CLI::App& app, Program& program);
 void add_bench_command(CLI::App& app, Program& program);
 void add_bench_one_command(CLI::App& app, Program& program);
 void add_polycube_command(CLI::App& app, Program& program);
+void add_polycube_map_command(CLI::App& app, Program& program);
 
 }  // namespace hexwright::cli

@@ -50,6 +50,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_picture_command(app, program);
   add_view_command(app, program);
   add_polycube_command(app, program);
+  add_polycube_map_command(app, program);
   add_bench_command(app, program);
   add_bench_one_command(app, program);
 }

@@ -237,9 +237,10 @@ double gap_beside(const std::vector<double>& planes, std::size_t i) {
 void flatten_charts(Faces& faces) {
   Lattice& lattice = faces.lattice;
   for (TriId t : lattice.facets.ids()) {
-    const Chart& chart = lattice.charts[static_cast<std::size_t>(lattice.facet_to_chart[t])];
+    const auto number = static_cast<std::size_t>(lattice.facet_to_chart[t]);
+    const Chart& chart = lattice.charts[number];
     const auto& planes = faces.planes[static_cast<std::size_t>(chart.axis)];
-    const auto plane = static_cast<std::size_t>(chart.plane);
+    const std::size_t plane = faces.chart_plane[number];
     const double allowed =
         std::max(kSnapToNext * gap_beside(planes, plane), kSnapOfExtent * faces.extent);
     for (VertId v : lattice.facets[t]) {
@@ -280,8 +281,8 @@ Faces find_faces(const TetMesh& polycube, double spacing) {
   lattice.num_merged_charts =
       merge_small_charts(lattice, neighbor, spacing > 0 ? spacing : least_gap(faces.planes));
   if (lattice.num_merged_charts > 0) faces.planes = find_planes(lattice, faces.extent);
-  for (Chart& chart : lattice.charts)
-    chart.plane = static_cast<int>(
+  for (const Chart& chart : lattice.charts)
+    faces.chart_plane.push_back(
         nearest_plane(faces.planes[static_cast<std::size_t>(chart.axis)], chart.coordinate));
   flatten_charts(faces);
   return faces;

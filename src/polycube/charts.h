@@ -8,10 +8,11 @@
 namespace hexwright::polycube {
 
 struct Faces {
-  Lattice lattice;  ///< facets and charts; tets still in the input's units, boundary vertices on
-                    ///< their planes; Chart::plane is an index into `planes` of its axis
+  Lattice lattice;  ///< facets and charts, without their planes; tets still in the input's units,
+                    ///< boundary vertices on their planes
   AxisPlanes planes;
-  double extent = 0;  ///< longest edge of the bounding box
+  std::vector<std::size_t> chart_plane;  ///< per chart: the number of its plane among its axis's
+  double extent = 0;                     ///< longest edge of the bounding box
 };
 
 /// `spacing` (0: the least distance of two planes) says how small a chart may be that is kept.

@@ -41,13 +41,13 @@ Lattice choose_lattice(const TetMesh& object, const TetMesh& polycube, PolycubeO
   const Faces faces = find_faces(polycube, options.spacing);
   if (options.spacing > 0 || options.min_level >= options.max_level) {
     const double spacing = options.spacing > 0 ? options.spacing : geometric_spacing(faces.planes);
-    return place_on_lattice(faces, even_scales(faces.planes, spacing), spacing);
+    return place_on_lattice(faces, even_scales(faces.planes, spacing), spacing, options.max_cells);
   }
   const auto candidates = suit_scales(faces.planes, object, faces.lattice.tets, options);
   const std::size_t num_folded = count_nonpositive(faces.lattice.tets);
   for (std::size_t i = 0;; ++i) {
     const ScaleCandidate& c = candidates[i];
-    Lattice lattice = place_on_lattice(faces, c.scales, c.spacing);
+    Lattice lattice = place_on_lattice(faces, c.scales, c.spacing, options.max_cells);
     if (i + 1 < candidates.size() && count_nonpositive(lattice.tets) > num_folded) continue;
     options.min_level = std::max(0, options.min_level - c.depth);
     options.max_level -= c.depth;

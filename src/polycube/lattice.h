@@ -36,11 +36,13 @@ struct Lattice {
 struct Faces;
 
 /// Lays the faces' polycube on the integer lattice; `spacing` is what the report calls its unit.
-/// Errors: BadGeometry when no cube lies inside, BadArgument when one side has over 1000 cubes.
-Lattice place_on_lattice(const Faces& faces, const AxisScales& scales, double spacing);
+/// Errors: BadGeometry when no cube lies inside, BadArgument when one side has over 1000 cubes,
+/// OutOfResources when more than `max_roots` lie inside.
+Lattice place_on_lattice(const Faces& faces, const AxisScales& scales, double spacing,
+                         std::size_t max_roots);
 
 /// On an even lattice. `spacing` 0 derives it: geometric_spacing(). Errors: also those of
 /// find_faces().
-Lattice fit_lattice(const TetMesh& polycube, double spacing);
+Lattice fit_lattice(const TetMesh& polycube, double spacing, std::size_t max_roots = 2'000'000);
 
 }  // namespace hexwright::polycube

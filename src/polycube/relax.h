@@ -10,9 +10,10 @@
 namespace hexwright::polycube {
 
 struct RelaxOptions {
-  bool pad = false;         ///< put one layer of hexes under the boundary
-  double near_surface = 0;  ///< world units; vertices farther off are brought back at any cost
-                            ///< short of nearly flat hexes, the others while quality hardly suffers
+  bool pad = false;  ///< put one layer of hexes under the boundary
+  double near_surface =
+      0;  ///< in the mesh's units; vertices farther off are brought back at any cost
+          ///< short of nearly flat hexes, the others while quality hardly suffers
 };
 
 /// What the mesh is relaxed onto.
@@ -25,7 +26,7 @@ struct RelaxScene {
 struct RelaxReport {
   std::size_t num_off_edges = 0;    ///< vertices let off the polycube's edges and corners
   std::size_t num_off_surface = 0;  ///< boundary vertices farther than `near_surface` off
-  double max_off_surface = 0;       ///< the largest distance of one, world units
+  double max_off_surface = 0;       ///< the largest distance of one, in the mesh's units
   Vec3 farthest_off;                ///< where
 };
 

@@ -10,6 +10,8 @@
 
 #include "hexwright/base/error.h"
 
+#include "geometry/tree/triangle_math.h"
+
 namespace hexwright::polycube {
 namespace {
 
@@ -21,25 +23,6 @@ Box3 tet_box(const TetMesh& mesh, TetId t) {
   Box3 box;
   for (const Vec3& p : tet_corners(mesh, t)) box.extend(p);
   return box;
-}
-
-// Ericson, section 5.1.5: the Voronoi regions of the triangle's corners, then edges, then inside.
-Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const double d1 = dot(ab, p - a), d2 = dot(ac, p - a);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = dot(ab, p - b), d4 = dot(ac, p - b);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double d5 = dot(ab, p - c), d6 = dot(ac, p - c);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  const double sum = va + vb + vc;
-  return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
 }  // namespace
@@ -118,7 +101,9 @@ TetPoint TetLocator::nearest(const Vec3& p) const {
   tree_.visit_nearest(p, [&](BoxTree::Item i) {
     const auto corners = tet_corners(mesh_, tets_[i]);
     for (const auto& f : kFacets) {
-      const Vec3 q = closest_in_triangle(p, corners[f[0]], corners[f[1]], corners[f[2]]);
+      const Vec3& a = corners[f[0]];
+      const auto facet = TriangleData::make(a, corners[f[1]], corners[f[2]], {});
+      const Vec3 q = a + closest_offset(facet, p - a);
       const double d = norm_sq(q - p);
       if (d > best || (d == best && !(tets_[i] < tet))) continue;
       best = d;

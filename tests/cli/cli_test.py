@@ -311,6 +311,44 @@ class Stages(CliTest):
         self.assertGreaterEqual(after, before)
 
 
+class PolycubeMap(CliTest):
+    LABELS = [1, 1, 0, 0, 3, 3, 2, 2, 5, 5, 4, 4]  # of the cube's twelve triangles
+
+    def labels(self, values):
+        file = self.path / "labels.txt"
+        file.write_text("".join(f"{v}\n" for v in values))
+        return file
+
+    def test_the_pair_is_written_and_taken_by_polycube(self):
+        labels = self.labels(self.LABELS)
+        pair = self.path / "o.mesh", self.path / "p.vtk"
+        done = self.run_binary("polycube-map", self.cube, labels, "--object", pair[0], "--polycube", pair[1])
+        self.assertRegex(done.stdout, r"\d+ tets, all positive in the object and in the polycube of 6 faces and 8 corners")
+        mesh = self.path / "m.vtu"
+        self.run_binary("polycube", *pair, "-o", mesh, "--max-stretch", "20%")
+        self.run_binary("check", mesh, self.cube)
+
+    def test_it_goes_straight_on_to_hexes_with_a_report(self):
+        mesh, report = self.path / "m.vtu", self.path / "r.json"
+        self.run_binary("polycube-map", self.cube, self.labels(self.LABELS), "-o", mesh, "--max-stretch", "20%",
+                        "--report", report)
+        self.run_binary("check", mesh, self.cube)
+        told = json.loads(report.read_text())
+        self.assertEqual(told["polycube"]["charts"], 6)
+        self.assertEqual(told["polycube"]["nonpositive_tets_polycube"], 0)
+
+    def test_what_is_wrong_is_said_with_the_remedy(self):
+        mesh = self.path / "m.vtu"
+        few = self.run_binary("polycube-map", self.cube, self.labels(self.LABELS[:-1]), "-o", mesh, expect=3).stderr
+        self.assertIn("11 labels, but the surface has 12 triangles", few)
+        opposite = [{2: 1}.get(v, v) for v in self.LABELS]
+        said = self.run_binary("polycube-map", self.cube, self.labels(opposite), "-o", mesh, expect=3).stderr
+        self.assertRegex(said, r"labels.txt: .*faces [+-]x and [+-]x share an edge at \(.*put a face of another axis")
+        nothing = self.run_binary("polycube-map", self.cube, self.labels(self.LABELS), expect=2).stderr
+        self.assertIn("nothing to write", nothing)
+        self.assertFalse(mesh.exists())
+
+
 class SecondOrder(CliTest):
     """A rod of 48 sides: its vertices and mid-nodes go to the surface."""
 

@@ -25,6 +25,10 @@ HexMesh read_hex_mesh(const std::filesystem::path& path);
 /// Tets of any program's file; a file of hexes alone is cut_hexes(). Throws as above.
 TetMesh read_tet_mesh(const std::filesystem::path& path);
 
+/// MEDIT, or legacy VTK for names that end in .vtk. Whole or not at all. Throws Error{BadArgument}
+/// for other extensions.
+void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
+
 struct WriteHexOptions {
   std::vector<HexField> fields;
   bool write_sets = false;  ///< VTU, VTK: also quads, edges and corners as cells (they are always

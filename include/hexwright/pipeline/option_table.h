@@ -9,6 +9,7 @@
 
 #include "hexwright/pipeline/evaluate.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/pipeline/polycube_map.h"
 #include "hexwright/pipeline/stages.h"
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/relax/improve.h"
@@ -55,6 +56,7 @@ OptionTable make_option_table(DualStageOptions& options);
 OptionTable make_option_table(FitStageOptions& options);
 OptionTable make_option_table(ImproveOptions& options);
 OptionTable make_option_table(PolycubeOptions& options);
+OptionTable make_option_table(PolycubeMapOptions& options);
 /// Of the judge: which creases count.
 OptionTable make_option_table(FeatureOptions& options);
 OptionTable make_option_table(EvaluateOptions& options);

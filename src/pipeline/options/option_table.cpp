@@ -309,6 +309,16 @@ OptionTable make_option_table(PolycubeOptions& options) {
   return table;
 }
 
+OptionTable make_option_table(PolycubeMapOptions& options) {
+  return {
+      share_row({"tolerance",
+                 "The tets that are deformed stand off the surface by no more than this share of "
+                 "the diagonal"},
+                options.tolerance),
+      count_row({"map-hexes", "Budget of hexes that are cut into 24 tets each"}, options.max_hexes),
+  };
+}
+
 OptionTable make_option_table(FeatureOptions& options) { return {feature_angle_row(options)}; }
 
 OptionTable make_option_table(EvaluateOptions& options) {
