@@ -6,7 +6,7 @@
 
 #include "hexwright/base/error.h"
 
-#include "geometry/prepare/surface_edges.h"
+#include "geometry/topology/surface_edges.h"
 
 namespace hexwright {
 namespace {
