@@ -4,12 +4,11 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-import warnings
 from collections.abc import Iterator
 from typing import Any
 
 from . import _core
-from ._errors import BadInput, HexwrightWarning
+from ._errors import BadInput
 from ._inputs import is_path
 
 
@@ -58,9 +57,3 @@ def to_rules(patches: Any) -> list[str]:
             raise BadInput(f"patches: '{name}' must be a rule such as 'cylinder:r=5' or 'face:face_12', for a CAD part")
         rules.append(f"{name}={rule}")
     return rules
-
-
-def warn_unmatched(rules: list[str], matched: list[int]) -> None:
-    for rule, count in zip(rules, matched):
-        if count == 0:
-            warnings.warn(f"patches: no part of the surface fits {rule}", HexwrightWarning, stacklevel=4)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -74,9 +74,7 @@ class Surface:
         if not rules:
             return given
         core, counts = _core.name_by_rules(given._core, [f"{name}={rule}" for name, rule in rules.items()])
-        unused = [name for name, count in zip(rules, counts) if count == 0]
-        unused = [f"no part of the surface fits the rule of '{name}'" for name in unused]
-        return Surface._wrap(core, self.warnings + unused)
+        return Surface._wrap(core, self.warnings + tell_unmatched(rules, counts))
 
     def _with_numbered(self, patches: Mapping[str, Any]) -> Surface:
         names = list(self._core.group_names) or [""]
@@ -121,6 +119,11 @@ class Surface:
 
     def __repr__(self) -> str:
         return f"<hexwright.Surface: {len(self.faces)} triangles, {len(self.vertices)} vertices>"
+
+
+def tell_unmatched(names: Iterable[str], counts: Iterable[int]) -> list[str]:
+    """A sentence for each rule that has found nothing."""
+    return [f"no part of the surface fits the rule of '{name}'" for name, count in zip(names, counts) if count == 0]
 
 
 def _to_face_ids(ids: Any, count: int, name: str) -> NDArray[np.int64]:

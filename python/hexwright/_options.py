@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import difflib
 import operator
+import os
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
@@ -64,18 +65,22 @@ def to_call(
 
 
 def _to_text(name: str, value: Any) -> str:
-    if getattr(value, "shape", None) == ():  # scalars of numpy
-        value = value.item()
+    if len(getattr(value, "shape", (0, 0))) <= 1:  # scalars and rows of numpy
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
     if isinstance(value, str):
         return value
     if isinstance(value, (list, tuple)):  # rules one per line, numbers side by side
         parts = [_to_text(name, part) for part in value]
         return ("\n" if all(isinstance(part, str) for part in value) else ",").join(parts)
-    raise BadInput(f"{name}: {type(value).__name__} is neither a number, a string nor a truth value")
+    raise BadInput(
+        f"{name}: {type(value).__name__} is neither a number, a string, a path or a truth value, nor a row of numbers or strings"
+    )
 
 
 def _to_threads(threads: int | None) -> int:

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._cad import cad_file, is_cad, to_rules, warn_unmatched
+from ._cad import cad_file, is_cad, to_rules
 from ._errors import BadInput, HexwrightWarning
 from ._grid import Grid, as_grid
-from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets
+from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets, tell_unmatched
 from ._mesh import HexMesh, InvalidMesh, as_mesh
 from ._options import Progress, to_call
 from ._verdict import Verdict, judge
@@ -110,7 +110,9 @@ def mesh(
         rules = to_rules(patches)
         with cad_file(surface) as path:
             core, grid, text, matched = _core.mesh_cad(path, rules, call)
-        warn_unmatched(rules, matched)
+        said = tell_unmatched(patches or {}, matched)
+        if said:
+            _warnings.warn("; ".join(said), HexwrightWarning, stacklevel=2)
     else:
         given = as_surface(surface, faces, patches)
         said = given.warnings

@@ -17,7 +17,9 @@
 namespace hexwright::polycube {
 namespace {
 
-constexpr double kAlignedCosine = 0.94;   // facets within 20 degrees of an axis are aligned
+constexpr double kAlignedCosine = 0.94;  // facets within 20 degrees of an axis are aligned
+// Facets of an uneven face, up to 41 degrees from its axis, belong to it where they join it.
+constexpr double kLeaningCosine = 0.75;
 constexpr double kNegligibleArea = 1e-2;  // share of the boundary that may be unaligned
 constexpr double kSamePlane = 2e-2;       // of the extent: what may be one plane
 // What a vertex may be off its chart's plane: this share of the way to the next plane, or this
@@ -62,41 +64,65 @@ IdVector<TriId, std::array<TriId, 3>> facet_neighbors(
   return neighbor;
 }
 
-// Unaligned facets take the direction of an aligned neighbour; refuses when they are too much of
-// the boundary.
+double cosine_to(const Vec3& unit_normal, int direction) {
+  return unit_normal[direction / 2] * (direction % 2 == 1 ? 1 : -1);
+}
+
+// Gives facets without a direction that of a neighbour, the one they face most, as long as they
+// face it by `least` or more; over and over.
+void adopt_directions(const IdVector<TriId, Vec3>& normals, double least,
+                      const IdVector<TriId, std::array<TriId, 3>>& neighbor,
+                      IdVector<TriId, int>& direction) {
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (TriId t : direction.ids()) {
+      if (direction[t] >= 0) continue;
+      double best = least;
+      for (TriId other : neighbor[t])
+        if (other.is_valid() && direction[other] >= 0 &&
+            cosine_to(normals[t], direction[other]) >= best) {
+          best = cosine_to(normals[t], direction[other]);
+          direction[t] = direction[other];
+          is_changed = true;
+        }
+    }
+  }
+}
+
+[[noreturn]] void refuse_unaligned(const Lattice& lattice, std::size_t count, TriId first) {
+  const auto& f = lattice.facets[first];
+  throw Error(ErrorCode::BadGeometry,
+              "the polycube's boundary is not axis-aligned: " + std::to_string(count) + " of " +
+                  std::to_string(lattice.facets.size()) + " facets, first facet " +
+                  std::to_string(first.value()) + " (vertices " + std::to_string(f[0].value() + 1) +
+                  " " + std::to_string(f[1].value() + 1) + " " + std::to_string(f[2].value() + 1) +
+                  "); pass the polycube as the second mesh, deformed until its faces are flat");
+}
+
+// Facets near an axis have its direction; leaning ones that of a neighbour that they nearly face;
+// the rest that of any neighbour. Refuses when the rest is too much of the boundary.
 IdVector<TriId, int> facet_directions(const Lattice& lattice, std::size_t& num_unaligned,
                                       const IdVector<TriId, std::array<TriId, 3>>& neighbor) {
   IdVector<TriId, int> direction(lattice.facets.size(), -1);
+  IdVector<TriId, Vec3> normals(lattice.facets.size());
   double area = 0, unaligned_area = 0;
-  TriId first_unaligned;
   for (TriId t : lattice.facets.ids()) {
     const Vec3 n = facet_geometry(lattice.tets, lattice.facets[t]).normal;
-    direction[t] = facet_direction(n);
     area += norm(n);
+    normals[t] = normalized(n);
+    direction[t] = facet_direction(n);
+  }
+  adopt_directions(normals, kLeaningCosine, neighbor, direction);
+  TriId first_unaligned;
+  for (TriId t : lattice.facets.ids()) {
     if (direction[t] >= 0) continue;
     ++num_unaligned;
-    unaligned_area += norm(n);
+    unaligned_area += norm(facet_geometry(lattice.tets, lattice.facets[t]).normal);
     if (!first_unaligned.is_valid()) first_unaligned = t;
   }
-  if (unaligned_area > kNegligibleArea * area) {
-    const auto& f = lattice.facets[first_unaligned];
-    throw Error(ErrorCode::BadGeometry,
-                "the polycube's boundary is not axis-aligned: " + std::to_string(num_unaligned) +
-                    " of " + std::to_string(lattice.facets.size()) + " facets, first facet " +
-                    std::to_string(first_unaligned.value()) + " (vertices " +
-                    std::to_string(f[0].value() + 1) + " " + std::to_string(f[1].value() + 1) +
-                    " " + std::to_string(f[2].value() + 1) +
-                    "); pass the polycube as the second mesh, deformed until its faces are flat");
-  }
-  for (std::size_t left = num_unaligned, before = 0; left != before && left > 0;) {
-    before = left;
-    for (TriId t : lattice.facets.ids())
-      for (TriId other : neighbor[t])
-        if (direction[t] < 0 && other.is_valid() && direction[other] >= 0) {
-          direction[t] = direction[other];
-          --left;
-        }
-  }
+  if (unaligned_area > kNegligibleArea * area)
+    refuse_unaligned(lattice, num_unaligned, first_unaligned);
+  adopt_directions(normals, -2, neighbor, direction);
   return direction;
 }
 

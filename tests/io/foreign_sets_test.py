@@ -441,7 +441,124 @@ def read_calculix(folder, samples):
     assert all(abs(a - b) < 1e-4 for a, b in zip(volumes, expected)), (volumes, expected)
 
 
+def cells_of(grid):
+    """Of a VTK grid, as lists of points."""
+    return [[list(grid.GetPoint(grid.GetCell(c).GetPointId(k))) for k in range(grid.GetCell(c).GetNumberOfPoints())]
+            for c in range(grid.GetNumberOfCells())]
+
+
+def read_vtkhdf(folder, samples):
+    """By VTK, which is built on the HDF5 library."""
+    import vtkmodules.vtkCommonDataModel  # noqa: F401
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    reader = vtkHDFReader()
+    reader.SetFileName(str(folder / "named.vtkhdf"))
+    reader.Update()
+    output = reader.GetOutputDataObject(0)
+    found = Found()
+    found.patches, found.nodes = {}, {}
+    for i in range(output.GetNumberOfPartitionedDataSets()):
+        grid, name = output.GetPartition(i, 0), output.GetMetaData(i).Get(output.NAME())
+        if len(cells_of(grid)[0]) == 8:
+            found.regions[name] = cells_of(grid)
+        elif len(cells_of(grid)[0]) == 4:
+            found.patches[name] = cells_of(grid)
+        found.nodes[name] = [grid.GetPoint(k) for k in range(grid.GetNumberOfPoints())]
+    Judge(samples, "vtkhdf").check(found, node_kinds=("patches", "curves", "corners"))
+
+
+def read_cgns(folder, samples):
+    """By the CGNS library's own check, and its elements and sets by VTK's reader, which is built on it."""
+    from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
+
+    reader = vtkCGNSReader()
+    path = folder / "named.cgns"
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    reader.EnableAllBases()
+    reader.EnableAllFamilies()
+    reader.Update()
+    zone = reader.GetOutput().GetBlock(0).GetBlock(0)
+    hexes = cells_of(zone)
+    points = [zone.GetPoint(k) for k in range(zone.GetNumberOfPoints())]
+    found = Found()
+    found.patches, found.nodes = {}, {}
+    read_cgns_sets(path, hexes, points, found)
+    Judge(samples, "cgns").check(found, node_kinds=("patches", "curves", "corners"))
+
+
+def read_cgns_sets(path, hexes, points, found):
+    """Sections and boundary conditions, which VTK's reader does not give one by one: by h5py."""
+    import h5py
+
+    with h5py.File(path) as file:
+        zone = file["Base/Zone"]
+        conditions = zone["ZoneBC"]
+        elements = {}
+        for name, node in zone.items():
+            if node.attrs.get("label") != b"Elements_t":
+                continue
+            size = {7: 4, 17: 8}[int(node[" data"][0])]
+            rows = node["ElementConnectivity/ data"][:].reshape(-1, size) - 1
+            first, last = node["ElementRange/ data"][:]
+            assert last - first + 1 == len(rows)
+            elements.update({first + i: [list(points[v]) for v in row] for i, row in enumerate(rows)})
+            if size == 8:
+                found.regions[name] = [list(map(list, cell)) for cell in hexes[first - 1:last]]
+                assert found.regions[name] == [elements[i] for i in range(first, last + 1)]
+        for name, node in conditions.items():
+            if node.attrs.get("label") != b"BC_t":
+                continue
+            assert bytes(node["FamilyName/ data"][:].astype("u1")).decode() == name and name in file["Base"]
+            if "PointRange" in node:
+                first, last = node["PointRange/ data"][:, 0]
+                found.patches[name] = [elements[i] for i in range(first, last + 1)]
+                found.nodes[name] = {tuple(p): p for quad in found.patches[name] for p in quad}.values()
+            else:
+                found.nodes[name] = [points[v - 1] for v in node["PointList/ data"][:, 0]]
+
+
+def check_cgns(folder, samples):
+    for name in ("named.cgns", "curved20.cgns", "curved27.cgns"):
+        run = subprocess.run(["cgnscheck", str(folder / name)], capture_output=True, text=True, check=False)
+        output = run.stdout + run.stderr
+        warnings = [line for line in output.splitlines() if line.startswith("WARNING") and "dataclass" not in line
+                    and "not boundary nodes" not in line]  # of curves inside
+        assert "checking complete" in output and "ERROR" not in output and not warnings, (name, output[-3000:])
+
+
+def read_med(folder, samples):
+    """By MEDCoupling, which is built on the MED library; measures are signed by the order of the nodes."""
+    import medcoupling
+
+    path = folder / "named.med"
+    file = medcoupling.MEDFileUMesh(str(path))
+    found = Found()
+    found.patches, found.nodes = {}, {}
+    order = [0, 3, 2, 1, 4, 7, 6, 5]  # from theirs to VTK's, and back
+    for level in file.getNonEmptyLevels():
+        for name in file.getGroupsOnSpecifiedLev(level):
+            group = file.getGroup(level, name)
+            points = group.getCoords().getValuesAsTuple()
+            cells = [[list(points[v]) for v in group.getNodeIdsOfCell(c)] for c in range(group.getNumberOfCells())]
+            if level == 0:
+                assert group.getMeasureField(False).getArray().getMinValueInArray() > 0, name
+                found.regions[name] = [[cell[k] for k in order] for cell in cells]
+            elif level == -1:
+                found.patches[name] = cells
+            found.nodes[name] = {tuple(p): p for cell in cells for p in cell}.values()
+    Judge(samples, "med").check(found, groups=True)
+    curved = medcoupling.ReadUMeshFromFile(str(folder / "curved20.med"), 0)
+    volume = sum(curved.getMeasureField(False).getArray().getValues())
+    assert curved.getNumberOfCells() == samples["hexes"] and abs(volume / samples["curved"]["volume"] - 1) < 0.02
+
+
 READERS = {
+    "vtkmodules.vtkIOHDF": ("module", read_vtkhdf),
+    "vtkmodules.vtkIOCGNSReader": ("module", read_cgns),
+    "cgnscheck": ("program", check_cgns),
+    "medcoupling": ("module", read_med),
     "meshio": ("module", read_meshio),
     "vtkmodules": ("module", read_vtk),
     "vtkmodules.vtkIOExodus": ("module", read_exodus),

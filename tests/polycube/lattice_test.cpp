@@ -177,5 +177,27 @@ TEST(TetLocator, BridgesPointsOutsideAndCountsInvertedTets) {
   EXPECT_NEAR(distance(interpolate(mesh, outside), {0.3, 0.2, 1}), 0, 1e-9);
 }
 
+// Corners of a face's triangles off their plane by a tenth of an edge: a good many facets lean by
+// more than 20 degrees, none belongs to another face.
+TEST(Charts, LeaningFacetsStayWithTheFaceTheyNearlyFace) {
+  constexpr int kCuts = 10;
+  TetMesh cube = test::tet_cubes({{0, 0, 0}}, kCuts);
+  std::uint32_t seed = 5;
+  const auto random = [&] { return (seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5; };
+  for (Vec3& p : cube.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[axis] < 1e-9 || p[axis] > 1 - 1e-9) p[axis] += 0.44 * random() / kCuts;
+  std::size_t num_leaning = 0;
+  for (const auto& f : boundary_facets(cube)) {
+    const auto& p = cube.positions;
+    const Vec3 n = normalized(cross(p[f[1]] - p[f[0]], p[f[2]] - p[f[0]]));
+    num_leaning += std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) < 0.94;
+  }
+  EXPECT_GT(num_leaning, 30u);  // of 1,200: more than a hundredth
+  const Lattice lattice = fit_lattice(cube, 0);
+  EXPECT_EQ(lattice.charts.size(), 6u);
+  EXPECT_EQ(lattice.num_unaligned, 0u);
+}
+
 }  // namespace
 }  // namespace hexwright::polycube

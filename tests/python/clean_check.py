@@ -3,6 +3,7 @@ is loaded for it lies in the environment or is the system's C and C++ library.
 
 Usage: clean_check.py MODEL WHEEL SOURCE
 """
+import ctypes
 import importlib.metadata
 import importlib.util
 import os
@@ -48,6 +49,17 @@ def check_libraries():
         assert inside or is_pythons or SYSTEM.match(path.name), f"{path} is neither in the environment nor of the system"
 
 
+def check_hidden(tree):
+    """That the build tree and the system's TBB cannot be seen at all."""
+    assert not os.listdir(tree), f"{tree} is to be empty here"
+    for name in ("libtbb.so.12", "libtbb.so.2", "libtbb.so"):
+        try:
+            ctypes.CDLL(name)
+        except OSError:
+            continue
+        raise AssertionError(f"the system's {name} can be loaded")
+
+
 def check_wheel():
     assert re.search(r"manylinux_2_34_\w+\.whl$", WHEEL.name), WHEEL.name
     names = zipfile.ZipFile(WHEEL).namelist()
@@ -79,4 +91,8 @@ if __name__ == "__main__":
     check_wheel()
     check_meshing()
     check_libraries()
+    hidden = os.environ.get("HEXWRIGHT_HIDDEN")
+    if hidden:
+        check_hidden(hidden)
+    print("build tree and system's TBB hidden" if hidden else "nothing could be hidden here; loaded libraries were looked at")
     print(f"hexwright {hexwright.__version__}: works with numpy alone, wheel of {WHEEL.stat().st_size / 1e6:.1f} MB")

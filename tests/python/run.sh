@@ -9,7 +9,6 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/common.sh"
 PROGRAM="$1" STEP="$2"
 TEST_PYTHON="$PYTHON_ENVS/test/bin/python"
-CLEAN="$ROOT/build/python/clean"
 WHEEL="$(ls "$ROOT"/build/python/dist/*.whl 2>/dev/null || true)"
 unset PYTHONPATH
 export PYTHONDONTWRITEBYTECODE=1
@@ -20,15 +19,27 @@ step_wheel() {
   [ ! -x "$TEST_PYTHON" ] || "$TEST_PYTHON" -m pip install --quiet --force-reinstall --no-deps "$WHEEL"
 }
 
+# Where the system gives a namespace, the build tree is empty in it and the system's TBB is no library.
 step_clean() {
-  rm -rf "$CLEAN"
-  python3 -m venv "$CLEAN"
-  "$CLEAN/bin/python" -m pip install --quiet "$WHEEL"
-  local folder
+  local folder hide=()
   folder="$(mktemp -d)"
-  cp "$ROOT/tests/python/clean_check.py" "$folder"
-  (cd "$folder" && env -i HOME="$folder" PATH=/usr/bin:/bin "$CLEAN/bin/python" -I clean_check.py \
-    "$ROOT/data/models/plate_holes.stl" "$WHEEL" "$ROOT")
+  python3 -m venv "$folder/env"
+  "$folder/env/bin/python" -m pip install --quiet "$WHEEL"
+  mkdir -p "$folder/source/include/hexwright"
+  cp "$ROOT/tests/python/clean_check.py" "$ROOT/data/models/plate_holes.stl" "$WHEEL" "$folder"
+  cp "$ROOT/CITATION.cff" "$folder/source"
+  cp "$ROOT/include/hexwright/version.h" "$folder/source/include/hexwright"
+  cat >"$folder/hide.sh" <<'SCRIPT'
+mount -t tmpfs none "$1" || exit 77
+for library in /usr/lib/*/libtbb* /usr/local/lib/libtbb*; do
+  [ ! -f "$library" ] || mount --bind /dev/null "$library"
+done
+shift
+exec "$@"
+SCRIPT
+  unshare -rm bash "$folder/hide.sh" "$ROOT" true 2>/dev/null && hide=(unshare -rm bash "$folder/hide.sh" "$ROOT")
+  (cd "$folder" && env -i HOME="$folder" PATH=/usr/bin:/bin ${hide[@]:+HEXWRIGHT_HIDDEN="$ROOT"} "${hide[@]}" \
+    "$folder/env/bin/python" -I clean_check.py plate_holes.stl "$(basename "$WHEEL")" source)
   rm -rf "$folder"
 }
 

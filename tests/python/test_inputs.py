@@ -126,7 +126,7 @@ def test_unknown_and_wrong_options_are_said(cube):
         hw.mesh(*cube, max_lvl=3)
     for options, words in (({"tolerance": 5}, "tolerance: '5' is not a share"), ({"rounds": 2.5}, "no whole number"),
                            ({"pairing": "all"}, "pairing: 'all' is none of"), ({"tolerance": [1]}, "'1' is not a share"),
-                           ({"tolerance": np.array([0.1, 0.2])}, "ndarray is neither"),
+                           ({"tolerance": np.array([0.1, 0.2])}, "is not a share"),
                            ({"threads": -1}, "threads: -1"), ({"max_level": True}, "no whole number"),
                            ({"tolerance": np.nan}, "not a share"), ({"min_level": 5, "max_level": 4}, "level")):
         with pytest.raises(hw.BadInput, match=words):
@@ -156,3 +156,13 @@ def test_hex_meshes_and_grids_are_checked_too(cube_mesh):
         hw.complete(7)
     with pytest.raises(hw.BadInput, match="no hex mesh"):
         hw.check(7)
+
+
+def test_rows_of_numpy_and_paths_are_options_too(cube, tmp_path):
+    rows = hw.mesh(*cube, side="outside", box=np.array([-1.0, -1, -1, 2, 2, 2]), size=np.float64(0.5))
+    assert np.allclose([rows.points.min(), rows.points.max()], [-1, 2])
+    sizes = tmp_path / "sizes.json"
+    sizes.write_text('{"size": 0.1}')
+    assert len(hw.mesh(*cube, sizes=sizes).hexes) == 1000
+    with pytest.raises(hw.BadInput, match="box: ndarray is neither a number"):
+        hw.mesh(*cube, side="outside", box=np.ones((2, 3)))

@@ -19,6 +19,7 @@ class Cylinder:
     """A quarter in plane strain. Its surface, exact solution, and what is held along which axis."""
 
     held = {"xmin": 1, "ymin": 2, "bottom": 3, "top": 3}
+    options = ["--tolerance", "0.2%"]
     largest_hoop = PRESSURE * (INNER**2 + OUTER**2) / (OUTER**2 - INNER**2)
     most = {"hexes": 1300, "u": 1e-4, "hoop": 0.01}
 
@@ -49,13 +50,15 @@ class Sphere:
 
     held = {"xmin": 1, "ymin": 2, "zmin": 3}
     largest_hoop = PRESSURE * (INNER**3 + OUTER**3 / 2) / (OUTER**3 - INNER**3)
-    most = {"hexes": 3000, "u": 3e-4, "hoop": 0.03}
+    #: The tolerance's grading follows the shape; here the solution, steep at the inner sphere, asks for more.
+    options = ["--size", "0.1"]
+    most = {"hexes": 5000, "u": 1e-4, "hoop": 0.01}
 
     @staticmethod
     def write(path):
         import bodies
 
-        bodies.eighth_shell(path, INNER, OUTER)
+        bodies.eighth_shell(path, INNER, OUTER, segments=240)
 
     @staticmethod
     def displacement(points):
@@ -169,7 +172,7 @@ def check(hexwright: str, step: Path | None):
     for body in (Cylinder,) if step else (Cylinder, Sphere):
         with tempfile.TemporaryDirectory() as folder:
             count, u, hoop, worst = measure(
-                hexwright, Path(folder), body, ["--tolerance", "0.2%", *SECOND], "C3D20R", step
+                hexwright, Path(folder), body, [*body.options, *SECOND], "C3D20R", step
             )
         print(
             f"{body.__name__}, {count} hexes: u {100 * u:.4f} %, largest hoop stress {100 * hoop:.2f} %, "

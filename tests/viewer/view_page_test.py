@@ -420,6 +420,29 @@ class Curved(PageTest):
         else:
             self.assertLess(self.difference(viewer.page.context.browser, viewer.screenshot(), (SCREENS / "curved.png").read_bytes()), 0.01)
 
+    def leftmost(self, viewer):
+        """The first place of the middle row, in pixels of the page, where something is drawn."""
+        box = viewer.page.locator("#stage").bounding_box()
+        x = viewer.page.evaluate("""async source => {
+            const image = new Image(); image.src = 'data:image/png;base64,' + source; await image.decode();
+            const canvas = Object.assign(document.createElement('canvas'), {width: image.width, height: image.height}), context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0);
+            const {data} = context.getImageData(0, image.height >> 1, image.width, 1), from = 4;
+            let x = from;
+            while (x < image.width && [0, 1, 2].every(k => Math.abs(data[4 * x + k] - data[4 * from + k]) < 40)) ++x;
+            return x / image.width; }""", base64.b64encode(viewer.screenshot()).decode())
+        return box["x"] + x * box["width"], box["y"] + box["height"] / 2
+
+    def test_a_click_where_a_face_bulges_meets_it(self):
+        """Far outside of the straight quads between the corners; and beside the bulge it meets nothing."""
+        viewer = self.open(self.folder / "barrel.html")
+        viewer.press("1")
+        x, y = self.leftmost(viewer)
+        for step, is_met in ((6, True), (-6, False)):
+            viewer.page.mouse.click(x + step, y)
+            viewer.settle()
+            self.assertEqual(viewer.page.locator("#picked").is_visible(), is_met, viewer.text("#picked"))
+
 
 class Part(PageTest):
     """A part meshed by the program, with verdict, input surface and levels."""

@@ -2,6 +2,7 @@
 // another choice of faces costs four bytes each, and the edges of quads are drawn by the fragment, without diagonals.
 import {BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, Points,
   RawShaderMaterial, RGBAFormat, RGBAIntegerFormat, Scene, UnsignedIntType, Vector2, WebGLRenderer} from 'three';
+import {GRID, GRID_INDEX, QUAD, QUAD_INDEX} from './places.js';
 import {FACE_EDGES, FACES} from './topology.js';
 
 const WIDTH = 2048;  // of data textures
@@ -140,15 +141,6 @@ class Instances {
   }
 }
 
-const QUAD = [0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0], QUAD_INDEX = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4];
-/// The same for faces of second order: a grid of places on them.
-const DIVISIONS = 6, GRID = [], GRID_INDEX = [];
-for (let j = 0; j <= DIVISIONS; ++j) for (let i = 0; i <= DIVISIONS; ++i) GRID.push(i / DIVISIONS, j / DIVISIONS, 0);
-for (let j = 0; j < DIVISIONS; ++j)
-  for (let i = 0, row = DIVISIONS + 1; i < DIVISIONS; ++i) {
-    const at = j * row + i;
-    GRID_INDEX.push(at, at + 1, at + row + 1, at, at + row + 1, at + row);
-  }
 const SEGMENT = [0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0], SEGMENT_INDEX = [0, 1, 2, 0, 2, 3];
 
 export class Drawing {

@@ -1,6 +1,6 @@
 // Reads and writes hex and tet meshes: VTU, legacy VTK, MEDIT, Gmsh, Abaqus, and for writing also
-// the formats of OpenFOAM, MFEM, Exodus II, Nastran, Ansys, LS-DYNA and SU2 (docs/format.md). Hex
-// vertex order in files is the format's own.
+// the formats of OpenFOAM, MFEM, Exodus II, Nastran, Ansys, LS-DYNA, SU2, CGNS, MED and VTKHDF
+// (docs/format.md). Hex vertex order in files is the format's own.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "hexwright/base/parallel.h"
+
 namespace hexwright {
 namespace {
 
@@ -227,7 +229,7 @@ std::size_t odd_edges_with(const WorkingSurface& surface, const std::vector<char
 std::size_t remove_duplicate_tris(WorkingSurface& surface, bool keep_walls) {
   std::vector<SortedTri> tris;
   for (TriId t : surface.mesh.tris.ids()) tris.push_back(sorted(surface.mesh, t));
-  std::sort(tris.begin(), tris.end(), [](const SortedTri& a, const SortedTri& b) {
+  parallel_stable_sort(tris.begin(), tris.end(), [](const SortedTri& a, const SortedTri& b) {
     return a.key != b.key ? a.key < b.key : a.tri < b.tri;
   });
   const bool has_duplicates =

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "hexwright/base/parallel.h"
+
 #include "geometry/prepare/surface_clean.h"
 
 namespace hexwright {
@@ -40,7 +42,7 @@ std::size_t weld_equal(TriMesh& mesh, std::vector<VertId> candidates) {
     const Vec3& p = mesh.positions[v];
     return std::array<double, 3>{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
   };
-  std::sort(candidates.begin(), candidates.end(), [&](VertId a, VertId b) {
+  parallel_stable_sort(candidates.begin(), candidates.end(), [&](VertId a, VertId b) {
     const auto ka = key(a), kb = key(b);
     return ka != kb ? ka < kb : a < b;
   });
@@ -70,7 +72,7 @@ class CellList {
  public:
   CellList(const TriMesh& mesh, const std::vector<VertId>& verts, double size) : size_(size) {
     for (VertId v : verts) entries_.push_back({cell_of(mesh.positions[v]), v});
-    std::sort(entries_.begin(), entries_.end());
+    parallel_stable_sort(entries_.begin(), entries_.end());
   }
 
   template <class Visit>

@@ -51,7 +51,10 @@ constexpr MeshFormat kFormats[] = {
     {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>, {20}},
     {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>, {20}},
     {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, of_first_order<lsdyna_text>},
-    {"SU2", "su2", ".su2", nullptr, su2_names, of_first_order<su2_text>}};
+    {"SU2", "su2", ".su2", nullptr, su2_names, of_first_order<su2_text>},
+    {"CGNS", "cgns", ".cgns", nullptr, cgns_names, without_options<cgns_bytes>, {27, 20}},
+    {"MED", "med", ".med", nullptr, med_names, without_options<med_bytes>, {20}},
+    {"VTKHDF", "vtkhdf", ".vtkhdf", nullptr, vtkhdf_names, vtkhdf_bytes, {20, 27}}};
 
 /// The one format that is a folder.
 constexpr const char* kOpenFoam = "openfoam";

@@ -13,6 +13,11 @@
 
 namespace hexwright::io {
 
+/// The hex of 20 nodes in most solvers' order, as indices into VTK's: upright edges come before
+/// those of the top.
+inline constexpr std::array<std::size_t, 20> kUprightEdgesFirst = {
+    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+
 /// Nodes of one element.
 class NodeList {
  public:

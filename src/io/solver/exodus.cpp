@@ -20,10 +20,6 @@ constexpr std::size_t kNameLength = 32;
 // 2 2-3-7-6, 3 3-4-8-7, 4 1-5-8-4, 5 1-4-3-2, 6 5-6-7-8.
 constexpr std::array<std::int32_t, 6> kExodusSide = {4, 2, 1, 3, 5, 6};
 
-// Of the 12 edges, the vertical ones come before those of the top.
-constexpr std::array<std::size_t, 20> kNodeOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
-                                                    10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
-
 using Sets = std::vector<const NamedSet*>;
 
 class ExodusWriter {
@@ -100,7 +96,7 @@ class ExodusWriter {
         hex_to_element_[HexId(h)] = static_cast<std::int32_t>(numbers.size());
         const NodeList list = nodes_.hex(HexId(h));
         for (std::size_t k = 0; k < list.size(); ++k)
-          connectivity.push_back(list[kNodeOrder[k]].value() + 1);
+          connectivity.push_back(list[kUprightEdgesFirst[k]].value() + 1);
       }
       const auto count =
           out_.dimension(fmt::format("num_el_in_blk{}", b + 1), blocks_[b]->members.size());

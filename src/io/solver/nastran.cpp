@@ -45,10 +45,6 @@ class Card {
 
 std::size_t number(VertId v) { return v.index() + 1; }
 
-/// Of the 12 edges, the vertical ones come before those of the top.
-constexpr std::array<std::size_t, 20> kNodeOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
-                                                    10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
-
 void write_grid(const IdVector<VertId, Vec3>& positions, TextWriter& out) {
   for (VertId v : positions.ids()) {
     const Vec3& p = positions[v];
@@ -65,7 +61,7 @@ void write_elements(const NodeTable& nodes, const SetTable& table, TextWriter& o
       Card card(out, "CHEXA");
       card.field(h + 1).field(r + 1);
       const NodeList list = nodes.hex(HexId(h));
-      for (std::size_t k = 0; k < list.size(); ++k) card.field(number(list[kNodeOrder[k]]));
+      for (std::size_t k = 0; k < list.size(); ++k) card.field(number(list[kUprightEdgesFirst[k]]));
     }
   }
 }

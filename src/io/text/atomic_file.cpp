@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <string>
 
 #include <fcntl.h>
@@ -15,7 +16,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
+
+#include "io/text/part_folder.h"
 
 namespace hexwright {
 namespace {
@@ -36,14 +40,31 @@ Error cannot_finish(const fs::path& path, int reason) {
 }
 
 /// 0, or the errno of what failed.
-int write_all(std::FILE* file, std::string_view content) {
-  const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
-                          std::fflush(file) == 0;
-  return is_written ? 0 : errno;
+int sync(std::FILE* file) {
+  // File systems that cannot sync (EINVAL) write in order or not at all.
+  return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
 }
 
-/// The file written aside now, for remove_part_file().
+/// Writes by pieces, each synced where wanted: neither can be interrupted, and a disk takes many
+/// seconds for a large file. 0, or the errno of what failed. Ends with Error{Cancelled} between
+/// pieces.
+int write_all(std::FILE* file, std::string_view content, bool is_synced) {
+  constexpr std::size_t kPiece = std::size_t{1} << 24;
+  do {
+    check_cancelled();
+    const std::string_view piece = content.substr(0, kPiece);
+    content.remove_prefix(piece.size());
+    if (std::fwrite(piece.data(), 1, piece.size(), file) != piece.size()) return errno;
+    if (std::fflush(file) != 0) return errno;
+    if (const int reason = is_synced ? sync(file) : 0) return reason;
+  } while (!content.empty());
+  return 0;
+}
+
+/// The file written aside now, and the folder it is in where that is made too, for
+/// remove_part_file().
 std::atomic<const char*> part_path{nullptr};
+std::atomic<const io::PartFolder*> part_folder{nullptr};
 static_assert(std::atomic<const char*>::is_always_lock_free, "read in a signal handler");
 
 /// A file beside `target` that nobody else has. It stays locked while it is open: those of other
@@ -74,9 +95,7 @@ class PartFile {
 
   /// Writes, syncs and renames; 0, or the errno of what failed.
   int finish(std::string_view content) {
-    if (const int reason = write_all(file_, content)) return reason;
-    // File systems that cannot sync (EINVAL) write in order or not at all.
-    if (fsync(fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) return errno;
+    if (const int reason = write_all(file_, content, true)) return reason;
     if (std::rename(path_.c_str(), target_.c_str()) != 0) return errno;
     is_renamed_ = true;
     return 0;
@@ -125,8 +144,8 @@ class PartFile {
 void write_to_device(const fs::path& path, std::string_view content) {
   std::FILE* device = std::fopen(path.string().c_str(), "wb");  // /dev/null, a pipe
   if (!device) throw cannot_write(path, std::strerror(errno));
-  const int reason = write_all(device, content);
-  std::fclose(device);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> guard(device, &std::fclose);
+  const int reason = write_all(device, content, false);
   if (reason != 0) throw cannot_finish(path, reason);
 }
 
@@ -134,7 +153,13 @@ void write_to_device(const fs::path& path, std::string_view content) {
 
 void remove_part_file() noexcept {
   if (const char* path = part_path.load()) unlink(path);
+  const io::PartFolder* folder = part_folder.load();
+  if (!folder) return;
+  for (const std::string& file : folder->files) unlink(file.c_str());
+  rmdir(folder->path.c_str());
 }
+
+void io::watch_part_folder(const PartFolder* folder) noexcept { part_folder = folder; }
 
 /// Symbolic links are followed, so that the link stays a link. Devices and pipes cannot be replaced
 /// and are written to directly.

@@ -16,6 +16,8 @@ namespace {
 
 /// No surface or mesh that fits into memory is larger.
 constexpr std::size_t kMostInflated = std::size_t{1} << 36;
+/// What is read between two looks at the caller's flag.
+constexpr std::size_t kPiece = std::size_t{1} << 24;
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b\x08"); }
 
@@ -51,6 +53,19 @@ std::string inflate_gzip(const std::string& packed, const std::string& name) {
   return out;
 }
 
+/// Fills the bytes as far as the file goes; returns how far.
+std::size_t read_pieces(std::FILE* file, std::string& bytes) {
+  std::size_t got = 0;
+  while (got < bytes.size()) {
+    check_cancelled();
+    const std::size_t wanted = std::min(kPiece, bytes.size() - got);
+    const std::size_t piece = std::fread(bytes.data() + got, 1, wanted, file);
+    got += piece;
+    if (piece != wanted) break;
+  }
+  return got;
+}
+
 }  // namespace
 
 FileBytes read_file(const std::filesystem::path& path) {
@@ -71,7 +86,7 @@ FileBytes read_file(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path, size_error);
   if (size_error) throw fail("cannot find the file's size: " + size_error.message());
   FileBytes result{name, std::string(static_cast<std::size_t>(size), '\0')};
-  const std::size_t got = std::fread(result.bytes.data(), 1, result.bytes.size(), file.get());
+  const std::size_t got = read_pieces(file.get(), result.bytes);
   if (got != result.bytes.size())
     throw fail("the file could be read only in part (" + std::to_string(got) + " of " +
                std::to_string(result.bytes.size()) + " bytes); is another program writing it?");

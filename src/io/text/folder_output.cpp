@@ -2,11 +2,19 @@
 #include "io/text/folder_output.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "hexwright/base/error.h"
 #include "hexwright/io/atomic_file.h"
+
+#include "io/text/part_folder.h"
 
 namespace hexwright::io {
 namespace {
@@ -31,54 +39,114 @@ void check_replaceable(const fs::path& path, const std::vector<FolderFile>& file
   }
 }
 
-/// A new folder beside the target.
-fs::path make_part_folder(const fs::path& path, const char* ending) {
-  constexpr int kMostAttempts = 1000;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    const std::string name = fmt::format(".{}.{}{}", path.filename().string(), attempt, ending);
-    fs::path part = path.parent_path() / name;
-    std::error_code error;
-    if (fs::create_directory(part, error)) return part;
-    if (error) fail(path, "cannot write the folder: " + error.message());
-  }
-  fail(path, "too many unfinished folders are beside it; remove them");
+/// The folder when nobody else has it locked, else -1.
+int open_locked(const fs::path& folder) {
+  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (opened < 0 || flock(opened, LOCK_EX | LOCK_NB) == 0) return opened;
+  close(opened);
+  return -1;
 }
 
-/// A folder that is there steps aside first, and comes back when the new one cannot take its place.
-void take_place(const fs::path& part, const fs::path& path) {
-  std::error_code error, ignored;
-  if (!fs::exists(path, ignored)) {
-    fs::rename(part, path, error);
-    if (error) fail(path, "cannot write the folder: " + error.message());
-    return;
-  }
-  const fs::path old = make_part_folder(path, ".old");
-  fs::rename(path, old, error);  // over the empty folder
-  if (!error) {
-    fs::rename(part, path, error);
-    if (error) fs::rename(old, path, ignored);
-  }
-  if (error) {
-    fs::remove(old, ignored);  // empty, or back in its place
-    fail(path, "cannot write the folder: " + error.message());
-  }
-  fs::remove_all(old, ignored);
+[[noreturn]] void fail_to_take(const fs::path& path) {
+  fail(path, "cannot write the folder: " + std::generic_category().message(errno));
 }
+
+/// At once where the file system can; else the old one steps aside first, and comes back when the
+/// new one cannot take its place.
+void exchange(const std::string& part, const fs::path& path) {
+  if (renameat2(AT_FDCWD, part.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) fail_to_take(path);
+  const std::string aside = part + ".old";
+  if (std::rename(path.c_str(), aside.c_str()) != 0) fail_to_take(path);
+  if (std::rename(part.c_str(), path.c_str()) != 0) {
+    const int reason = errno;
+    std::rename(aside.c_str(), path.c_str());
+    errno = reason;
+    fail_to_take(path);
+  }
+  std::rename(aside.c_str(), part.c_str());
+}
+
+/// A new folder beside the target. It stays locked while the object lives: those of other runs that
+/// can be locked were left by runs that were killed.
+class PartFolderLock {
+ public:
+  PartFolderLock(const fs::path& path, const std::vector<FolderFile>& files) {
+    constexpr int kMostAttempts = 1000;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      folder_.path =
+          path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), attempt);
+      remove_if_left();
+      std::error_code error;
+      const bool is_made = fs::create_directory(folder_.path, error);
+      if (error) fail(path, "cannot write the folder: " + error.message());
+      if (!is_made || !lock()) continue;
+      watch(files);
+      return;
+    }
+    fail(path, "too many unfinished folders are beside it; remove them");
+  }
+  ~PartFolderLock() {
+    watch_part_folder(nullptr);
+    std::error_code ignored;
+    if (!is_kept_) fs::remove_all(folder_.path, ignored);
+    close(opened_);
+  }
+  PartFolderLock(const PartFolderLock&) = delete;
+  PartFolderLock& operator=(const PartFolderLock&) = delete;
+
+  const std::string& path() const { return folder_.path; }
+
+  /// The folder takes the target's place; one that is there comes to its own and is removed.
+  void take_place(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+      if (std::rename(folder_.path.c_str(), path.c_str()) != 0) fail_to_take(path);
+      is_kept_ = true;
+    } else {
+      exchange(folder_.path, path);
+    }
+  }
+
+ private:
+  void remove_if_left() const {
+    const int left = open_locked(folder_.path);
+    if (left < 0) return;
+    std::error_code ignored;
+    fs::remove_all(folder_.path, ignored);
+    close(left);
+  }
+
+  /// False when another run took it for a left one before it was locked.
+  bool lock() {
+    opened_ = open_locked(folder_.path);
+    struct stat status = {};
+    if (opened_ >= 0 && fstat(opened_, &status) == 0 && status.st_nlink > 0) return true;
+    if (opened_ >= 0) close(opened_);
+    opened_ = -1;
+    return false;
+  }
+
+  void watch(const std::vector<FolderFile>& files) {
+    for (const FolderFile& file : files)
+      folder_.files.push_back((fs::path(folder_.path) / file.name).string());
+    watch_part_folder(&folder_);
+  }
+
+  PartFolder folder_;
+  int opened_ = -1;
+  bool is_kept_ = false;
+};
 
 }  // namespace
 
 void write_folder_atomically(const fs::path& given, const std::vector<FolderFile>& files) {
   const fs::path path = given.has_filename() ? given : given.parent_path();  // "polyMesh/"
   check_replaceable(path, files);
-  const fs::path part = make_part_folder(path, ".part");
-  try {
-    for (const FolderFile& file : files) write_file_atomically(part / file.name, file.bytes);
-    take_place(part, path);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(part, ignored);
-    throw;
-  }
+  PartFolderLock part(path, files);
+  for (const FolderFile& file : files)
+    write_file_atomically(fs::path(part.path()) / file.name, file.bytes);
+  part.take_place(path);
 }
 
 }  // namespace hexwright::io

@@ -1,11 +1,12 @@
 // Builds output of text and binary parts fast; numbers are written with as many digits as reading
-// them back needs.
+// them back needs. Looks at the caller's flag meanwhile (base/cancel.h).
 #pragma once
 
 #include <charconv>
 #include <string>
 #include <string_view>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/vec3.h"
 
 #include "io/text/byte_reader.h"
@@ -64,6 +65,7 @@ class TextWriter {
   }
   template <class Number>
   TextWriter& binary(Number value, ByteOrder order) {
+    check_cancelled_();
     store(out_, value, order);
     return *this;
   }
@@ -82,6 +84,7 @@ class TextWriter {
 
  private:
   TextWriter& padded(std::size_t width, std::string_view words) {
+    check_cancelled_();
     if (words.size() < width) out_.append(width - words.size(), ' ');
     out_ += words;
     return *this;
@@ -89,6 +92,7 @@ class TextWriter {
 
   template <class Number>
   TextWriter& number(Number value) {
+    check_cancelled_();
     char buffer[32];
     const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
     append({buffer, result.ptr});
@@ -98,6 +102,7 @@ class TextWriter {
   [[gnu::noinline]] void append(std::string_view words) { out_.append(words); }
 
   std::string out_;
+  CancelCheck check_cancelled_;
 };
 
 }  // namespace hexwright::io
