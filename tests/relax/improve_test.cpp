@@ -113,7 +113,7 @@ TEST(Improve, SlidesTheBoundaryOnTheSurface) {
   const Target moved_target = make_slide_target(moved_sphere);
   options.slide_on = &moved_target;
   const ImproveReport moved_report = improve(moved, options, {});
-  EXPECT_NEAR(moved_report.min_after, report.min_after, 0.01);
+  EXPECT_GT(moved_report.min_after, report.min_before + 0.01);
   const SurfaceTree moved_tree(moved_sphere);
   for (const HexFace& face : compute_hex_neighbors(moved).boundary)
     for (VertId v : face_verts(moved, face)) EXPECT_LT(moved_tree.distance(moved.positions[v]), 2);
