@@ -10,7 +10,7 @@ from ._grid import Grid, read_grid
 from ._inputs import Surface, TetMesh, read_surface
 from ._mesh import Facets, HexMesh, InvalidMesh, SecondOrder, read
 from ._options import Option, options
-from ._stages import check, complete, dual, evaluate, fit, grid, improve, mesh, polycube
+from ._stages import check, complete, dual, evaluate, fit, grid, improve, inspect, mesh, polycube
 from ._verdict import Verdict
 
 __all__ = [
@@ -37,6 +37,7 @@ __all__ = [
     "fit",
     "grid",
     "improve",
+    "inspect",
     "mesh",
     "options",
     "polycube",

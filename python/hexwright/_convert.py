@@ -31,6 +31,8 @@ def to_pyvista(mesh: HexMesh) -> Any:
     grid = pyvista.UnstructuredGrid({VTK_HEXAHEDRON: mesh.hexes.astype(np.int64)}, np.array(mesh.points))
     grid.cell_data["region"] = np.array(mesh.regions)
     grid.cell_data["scaled_jacobian"] = mesh.quality()
+    if mesh.layer is not None:
+        grid.cell_data["layer"] = np.array(mesh.layer)
     return grid
 
 
@@ -50,8 +52,10 @@ def to_meshio(mesh: HexMesh) -> Any:
         for name in names
         if name is not None
     }
-    regions = [mesh.regions] + [np.zeros(len(block), dtype=np.int32) for _, block in cells[1:]]
-    return meshio.Mesh(mesh.points, cells, cell_data={"region": regions}, cell_sets=sets)
+    data = {"region": mesh.regions} if mesh.layer is None else {"region": mesh.regions, "layer": mesh.layer}
+    none = [np.zeros(len(block), dtype=np.int32) for _, block in cells[1:]]
+    cell_data = {name: [values, *none] for name, values in data.items()}
+    return meshio.Mesh(mesh.points, cells, cell_data=cell_data, cell_sets=sets)
 
 
 def to_skfem(mesh: HexMesh) -> Any:

@@ -175,6 +175,19 @@ class PolycubeOptions(TypedDict, total=False):
     """Cells sharing a face (weak) or also an edge or vertex (strong) differ by at most one level, or by two (relaxed; for sheets); auto: relaxed for sheets, else weak. Default: auto."""
 
 
+class InspectOptions(TypedDict, total=False):
+    """Options of ``hexwright inspect``."""
+
+    parts: Literal["as-is", "separate", "unite"]
+    """Solids that overlap or touch: united; those that only touch kept apart; or all surfaces left as they are. Default: unite."""
+    min_part: float | str
+    """Parts no longer than this share of the diagonal are left out, with a warning, and voids filled. Default: the tolerance."""
+    tolerance: float | str
+    """What is thinner than this share of the bounding box's diagonal is thin. Default: 0.5%."""
+    feature_angle: float
+    """Edges whose faces turn by more are sharp, degrees. Default: 50."""
+
+
 class CheckOptions(TypedDict, total=False):
     """Options of ``hexwright check``."""
 

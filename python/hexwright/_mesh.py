@@ -60,6 +60,9 @@ class HexMesh:
     grid : Grid or None
         The completed grid behind a mesh of ``mesh`` and ``polycube``. In the first, the lattice is turned with the part
         (option ``placement``).
+    layer : ndarray of shape (k,), or None
+        With the option ``layers``: the wall layer of each hex, counted from the wall; 0 in none. It is written to files, and
+        in the cell data of ``to_pyvista`` and ``to_meshio``.
     """
 
     def __init__(self, points: ArrayLike, hexes: ArrayLike, regions: ArrayLike | None = None):
@@ -77,6 +80,7 @@ class HexMesh:
         self.report: dict[str, Any] = report or {}
         self.warnings: list[str] = list(warnings)
         self.grid: Grid | None = None
+        self.layer: NDArray[np.int32] | None = None
         if failures is not None:
             self.failures = failures
 
@@ -192,7 +196,7 @@ class HexMesh:
         ----------
         path : path-like
         fields : mapping of str to array_like of shape (k,), optional
-            Values per hex to write beside the scaled Jacobian, in the formats that have them.
+            Values per hex to write beside the scaled Jacobian and ``layer``, in the formats that have them.
         format : str, optional
             The format where the extension does not tell, as ``--format`` of the command line.
         nodes : {0, 8, 20, 27}, optional
@@ -200,7 +204,8 @@ class HexMesh:
         """
         if nodes not in (0, 8, 20, 27):
             raise BadInput(f"nodes: {nodes} is none of 0, 8, 20, 27")
-        pairs = [(name, to_array(values, name)) for name, values in (fields or {}).items()]
+        known: dict[str, ArrayLike] = {} if self.layer is None else {"layer": self.layer}
+        pairs = [(name, to_array(values, name)) for name, values in {**known, **(fields or {})}.items()]
         changed = self._core.save(os.fspath(path), pairs, format, nodes)
         if changed:
             told = ", ".join(f"'{given}' is '{written}'" for given, written in changed)
@@ -228,13 +233,15 @@ class HexMesh:
         against = None if surface is None else as_surface(surface)._core
         name = os.path.join(tempfile.mkdtemp(prefix="hexwright-"), "mesh.html") if path is None else os.fspath(path)
         page = pathlib.Path(name)
-        _core.write_view(name, self._core, page.stem, against)
+        fields = [] if self.layer is None else [("layer", self.layer)]
+        _core.write_view(name, self._core, page.stem, against, fields)
         if open:
             webbrowser.open(page.resolve().as_uri())
         return name
 
     def to_pyvista(self) -> Any:
-        """A ``pyvista.UnstructuredGrid`` with cell data ``region`` and ``scaled_jacobian``. Points are copied."""
+        """A ``pyvista.UnstructuredGrid`` with cell data ``region``, ``scaled_jacobian`` and, with wall layers, ``layer``. Points
+        are copied."""
         return _convert.to_pyvista(self)
 
     def to_meshio(self) -> Any:

@@ -31,7 +31,7 @@ def options(stage: str) -> list[Option]:
     Parameters
     ----------
     stage : str
-        One of mesh, grid, complete, dual, fit, improve, polycube, check, evaluate.
+        One of mesh, grid, complete, dual, fit, improve, polycube, inspect, check, evaluate.
 
     Returns
     -------

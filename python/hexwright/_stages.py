@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         FitOptions,
         GridOptions,
         ImproveOptions,
+        InspectOptions,
         MeshOptions,
         PolycubeOptions,
     )
@@ -84,7 +85,7 @@ def mesh(
     Returns
     -------
     HexMesh
-        With ``report``, ``failures`` and ``warnings`` of the run, and ``grid``.
+        With ``report``, ``failures`` and ``warnings`` of the run, ``grid``, and with wall layers ``layer``.
 
     Raises
     ------
@@ -109,18 +110,48 @@ def mesh(
             raise BadInput("features: a CAD part brings its own; tangent_edges=True adds the smooth edges")
         rules = to_rules(patches)
         with cad_file(surface) as path:
-            core, grid, text, matched = _core.mesh_cad(path, rules, call)
+            core, grid, text, layer, matched = _core.mesh_cad(path, rules, call)
         said = tell_unmatched(patches or {}, matched)
         if said:
             _warnings.warn("; ".join(said), HexwrightWarning, stacklevel=2)
     else:
         given = as_surface(surface, faces, patches)
         said = given.warnings
-        core, grid, text = _core.mesh(given._core, as_edges(features), call)
+        core, grid, text, layer = _core.mesh(given._core, as_edges(features), call)
     report = json.loads(text)
     result = HexMesh._wrap(core, report, said + report["warnings"], report["failures"])
     result.grid = Grid._wrap(grid)
+    result.layer = layer
     return _finish(result, strict)
+
+
+def inspect(
+    surface: SurfaceLike,
+    faces: ArrayLike | None = None,
+    *,
+    patches: Patches | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Unpack[InspectOptions],
+) -> dict[str, Any]:
+    """What a surface is before it is meshed: solids, cavities, open edges, crossings, thin walls, sharp edges, names.
+
+    Parameters are those of ``mesh``; options those of ``hexwright inspect``.
+
+    Returns
+    -------
+    dict
+        What ``hexwright inspect --json`` prints; ``refusal`` says why ``mesh`` would refuse the surface, and is empty when it
+        would not.
+    """
+    call = to_call("inspect", options, progress, threads)
+    if faces is None and patches is None and is_cad(surface):
+        with cad_file(surface) as path:
+            text = _core.inspect_cad(path, call)
+    else:
+        text = _core.inspect(as_surface(surface, faces, patches)._core, call)
+    found: dict[str, Any] = json.loads(text)
+    return found
 
 
 def grid(

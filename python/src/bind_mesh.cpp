@@ -117,11 +117,11 @@ std::vector<std::pair<std::string, std::string>> save(const HexMesh& mesh, const
   WriteHexOptions options;
   options.format = format;
   options.nodes_per_hex = nodes_per_hex;
-  options.fields.push_back({"scaled_jacobian", {}});
   for (const auto& [name, values] : fields)
     options.fields.push_back({name, to_numbers(values, mesh.num_hexes(), name)});
   const nb::gil_scoped_release released;
-  options.fields[0].values = compute_scaled_jacobians(mesh).raw();
+  // Last, as the command line has it.
+  options.fields.push_back({"scaled_jacobian", compute_scaled_jacobians(mesh).raw()});
   std::vector<std::pair<std::string, std::string>> changed;
   for (const ChangedName& name : write_hex_mesh(path, mesh, options).changed_names)
     changed.emplace_back(name.given, name.written);
@@ -136,9 +136,12 @@ std::vector<std::string> first_names(const HexMesh& mesh, SetKind kind, std::siz
 }
 
 void write_view(const std::string& path, const HexMesh& mesh, const std::string& title,
-                const TriMesh* surface) {
+                const TriMesh* surface, const std::vector<Field>& fields) {
   ViewOptions options;
   options.title = title;
+  for (const auto& [name, values] : fields)
+    options.fields.push_back({name, to_numbers(values, mesh.num_hexes(), name)});
+  const nb::gil_scoped_release released;
   std::optional<SurfaceTree> tree;
   if (surface) options.surface = &tree.emplace(*surface);
   write_file_atomically(path, make_view_page(mesh, options));
@@ -222,7 +225,7 @@ void bind_mesh(nb::module_& module) {
       .def("facets", &facets_of)
       .def("curves", &curves_of);
   module.def("write_view", &write_view, "path"_a, "mesh"_a, "title"_a, "surface"_a.none(),
-             nb::call_guard<nb::gil_scoped_release>());
+             "fields"_a);
   module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
              nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "
                      "numpy.typing.NDArray[numpy.uint8]"));

@@ -59,6 +59,11 @@ nb::list describe_grid_defaults() {
   return describe(make_grid_option_table(options));
 }
 
+nb::list describe_inspect_defaults() {
+  MeshOptions options;
+  return describe(make_inspect_option_table(options));
+}
+
 struct Stage {
   std::string_view name;
   nb::list (*options)();
@@ -71,6 +76,7 @@ constexpr Stage kStages[] = {
     {"fit", [] { return describe_defaults<FitStageOptions>(); }},
     {"improve", [] { return describe_defaults<ImproveOptions>(); }},
     {"polycube", [] { return describe_defaults<PolycubeOptions>(); }},
+    {"inspect", &describe_inspect_defaults},
     {"check", [] { return describe_defaults<FeatureOptions>(); }},
     {"evaluate", [] { return describe_defaults(default_evaluate_options()); }},
 };

@@ -17,6 +17,7 @@
 #include "hexwright/geometry/patch_rules.h"
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/pipeline/inspect.h"
 #include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/report.h"
 #include "hexwright/quality/verdict_json.h"
@@ -63,6 +64,11 @@ void add_features(const TriMesh& surface, const std::optional<AnyArray>& edges,
     options.extra_segments.push_back({surface.positions[a], surface.positions[b]});
 }
 
+/// The wall layer of each hex; None when none were asked for.
+nb::object give_layer(MeshResult& result) {
+  return result.layer.empty() ? nb::none() : give_values(std::move(result.layer.raw()));
+}
+
 nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
   auto options = read_options<MeshOptions>(call);
   add_features(surface, features, options.target.features);
@@ -72,7 +78,8 @@ nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, 
     result = mesh_surface(surface, options, context);
     report = report_to_json(result, options, {"", "", num_threads(), {}});
   });
-  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report);
+  nb::object layer = give_layer(result);
+  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, layer);
 }
 
 /// A CAD file; `rules` as --patch of the command line takes them.
@@ -95,7 +102,9 @@ nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>&
     report = report_to_json(
         result, options, {path, "", num_threads(), {}, summarize_cad(input.model, input.surface)});
   });
-  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, input.num_matched);
+  nb::object layer = give_layer(result);
+  return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, layer,
+                        input.num_matched);
 }
 
 nb::tuple grid(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
@@ -203,6 +212,29 @@ nb::tuple polycube(const TetMesh& object, const TetMesh& cube,
                         polycube_to_json(result.report), verdict_to_json(result.verdict), warnings);
 }
 
+/// What a surface is, as JSON.
+std::string inspect(const TriMesh& surface, const Call& call) {
+  MeshOptions options;
+  apply_options(make_inspect_option_table(options), call.options);
+  const auto look = [&](const Context& context) {
+    return inspection_to_json(inspect_surface(surface, options, context));
+  };
+  return run_for(call, look).first;
+}
+
+std::string inspect_cad(const std::string& path, const Call& call) {
+  MeshOptions options;
+  apply_options(make_inspect_option_table(options), call.options);
+  const auto look = [&](const Context& context) {
+    const CadInput input = prepare_cad(read_cad(path, read_options_for(options)), {}, options);
+    SurfaceInspection inspection =
+        inspect_surface(input.surface.surface, options_for_cad(options, input), context);
+    inspection.cad = summarize_cad(input.model, input.surface);
+    return inspection_to_json(inspection);
+  };
+  return run_for(call, look).first;
+}
+
 std::string evaluate(const TriMesh& surface, const Call& call) {
   EvaluateOptions options = default_evaluate_options();
   apply_options(make_option_table(options), call.options);
@@ -227,6 +259,8 @@ void bind_stages(nb::module_& module) {
       "is_cad_file", [](const std::string& path) { return is_cad_file(path); }, "path"_a);
   module.def("can_read_cad", &can_read_cad);
   module.def("mesh_cad", &mesh_cad_file, "path"_a, "rules"_a, "call"_a);
+  module.def("inspect", &inspect, "surface"_a, "call"_a);
+  module.def("inspect_cad", &inspect_cad, "path"_a, "call"_a);
   module.def("mesh", &mesh, "surface"_a, "features"_a.none(), "call"_a);
   module.def("grid", &grid, "surface"_a, "features"_a.none(), "call"_a);
   module.def("complete", &complete_grid, "grid"_a, "call"_a);
