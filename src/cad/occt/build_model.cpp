@@ -28,7 +28,8 @@
 namespace hexwright::cad {
 namespace {
 
-/// Faces that meet at less are smooth wherever the edge's ends make the normals doubtful.
+/// Shares of an edge at which the angle of its faces is measured; its ends, where normals may be
+/// doubtful, are not among them.
 constexpr double kProbes[] = {0.1, 0.3, 0.5, 0.7, 0.9};
 
 class OcctProjector final : public Projector {
@@ -249,7 +250,8 @@ class ModelBuilder {
     return largest;
   }
 
-  /// The polyline's parameters: those of its points' projections, spread evenly at first.
+  /// Absent for edges without a curve in space. Samples are spread evenly over its parameters,
+  /// eight for each of the polyline's points.
   static std::optional<ExactEdge> make_exact(const TopoDS_Edge& edge, const CadEdge& result) {
     double first, last;
     if (BRep_Tool::Curve(edge, first, last).IsNull() || result.verts.size() < 2) return {};

@@ -45,7 +45,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::BadFile, message); }
 
 std::string read_bytes(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path))
+  std::error_code unreadable;  // a folder on the way that may not be entered is no file either
+  if (!std::filesystem::is_regular_file(path, unreadable))
     throw Error(ErrorCode::CannotOpen, "no such file; check the path");
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -30,7 +30,8 @@ class ExactFace {
   /// Fills kind, origin, axis and radii.
   void describe(CadFace& face) const;
   /// Planes and other elementary surfaces directly; others by Newton's method from the nearest
-  /// sample. Absent where it does not converge.
+  /// sample, which ends at the nearest point it comes to, converged or not. Absent for faces
+  /// without samples and where the point is not finite.
   std::optional<ExactPoint> project(const Vec3& p) const;
   /// Outward; absent at poles.
   std::optional<Vec3> normal(double u, double v) const;
