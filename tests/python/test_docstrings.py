@@ -7,10 +7,13 @@ import pkgutil
 import hexwright
 
 
+NEED_EXTRAS = ("_pyvista", "_ocp", "_ocp_document")  # packages that need not be installed
+
+
 def modules():
     yield hexwright
     for info in pkgutil.iter_modules(hexwright.__path__):
-        if info.name not in ("_core", "_pyvista"):
+        if info.name not in ("_core", *NEED_EXTRAS):
             yield importlib.import_module(f"hexwright.{info.name}")
 
 
