@@ -184,7 +184,15 @@ TEST(Deform, FacesThatCannotLookTheirWayAreRefused) {
                  z = (p[f[0]].z + p[f[1]].z + p[f[2]].z) / 3;
     return label == 4 && x > 1 && z > 0.9 ? 5 : label;  // the tread looks down
   };
-  EXPECT_THROW(deform_to_polycube(stair, label_of, {}), Error);
+  try {
+    deform_to_polycube(stair, label_of, {});
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& e) {
+    const std::string text = e.what();
+    EXPECT_TRUE(text.find("comes to look the other way") != std::string::npos ||
+                text.find("lead to a polycube that folds") != std::string::npos)
+        << text;
+  }
 }
 
 TEST(Deform, IsTheSameAtAnyScaleAndPlace) {

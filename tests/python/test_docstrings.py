@@ -7,7 +7,7 @@ import pkgutil
 import hexwright
 
 
-NEED_EXTRAS = ("_pyvista", "_ocp", "_ocp_document")  # packages that need not be installed
+NEED_EXTRAS = ("_pyvista",)  # packages that need not be installed
 
 
 def modules():
