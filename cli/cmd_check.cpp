@@ -12,6 +12,7 @@
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/io/set_summary.h"
 #include "hexwright/pipeline/mesh_surface.h"
+#include "hexwright/quality/judge_distance.h"
 #include "hexwright/quality/verdict_json.h"
 
 #include "check_grid.h"
@@ -27,6 +28,7 @@ struct CheckCommand {
   std::string input, reference, report, view, feature_file;
   bool as_grid = false, as_json = false;
   FeatureOptions features;
+  double tolerance = SizingOptions{}.tolerance;
   std::optional<Balance> balance;
   bool needs_blocks = false;
 
@@ -61,7 +63,8 @@ Judgement judge_mesh(const CheckCommand& cmd, const HexMesh& mesh, Program& prog
   load_features(cmd.feature_file, surface, wishes.features);
   return naming_file(cmd.reference, [&] {
     const Target target = make_target(surface, wishes, context);
-    Judgement judgement{std::nullopt, judge(to_unit(mesh, target.frame), target, {}, context)};
+    const JudgeOptions options{.bound_gap = kBoundOfTolerance * cmd.tolerance};
+    Judgement judgement{std::nullopt, judge(to_unit(mesh, target.frame), target, options, context)};
     judgement.verdict.to_world(target.frame);
     if (!cmd.view.empty()) judgement.surface.emplace(to_world(target.surface(), target.frame));
     return judgement;
@@ -142,6 +145,14 @@ void add_check_command(CLI::App& app, Program& program) {
   sub->add_flag("--json", cmd->as_json, "Print the verdict as JSON");
   sub->add_option("--report", cmd->report, "Write the verdict as JSON");
   sub->add_option("--view", cmd->view, "Of a mesh: write a page to look into it with (.html)");
+  sub->add_option_function<std::string>(
+         "--tolerance",
+         [cmd](const std::string& text) {
+           cmd->tolerance = text == "0" ? 0 : read_share("--tolerance", text);
+         },
+         "Of a mesh: its largest distance comes with an upper bound that is at most 2% of this "
+         "share of the diagonal above it; 0 = without a bound [0.5%]")
+      ->type_name("SHARE");
   add_options(*sub, make_option_table(cmd->features));
   add_feature_file_option(*sub, cmd->feature_file);
   add_grid_demands(*sub, *cmd);

@@ -6,6 +6,7 @@
 #include "hexwright/io/atomic_file.h"
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/pipeline/report.h"
+#include "hexwright/quality/judge_distance.h"
 #include "hexwright/quality/verdict_json.h"
 
 #include "commands.h"
@@ -53,7 +54,7 @@ void run(const FitCommand& cmd, Program& program) {
   }
   write_mesh_with_quality(cmd.output, result.mesh, program.console, cmd.elements);
   write_cut_picture(cmd.picture, result.mesh);
-  JudgeOptions judged;
+  JudgeOptions judged{.bound_gap = kBoundOfTolerance * wishes.fit.tolerance};
   if (wishes.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
   Verdict verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
   verdict.to_world(target.frame);

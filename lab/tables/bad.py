@@ -1,6 +1,6 @@
 """How `hexwright mesh` ends on every file of a folder of bad inputs (docs/results/bad_inputs.md).
 
-Each run must end within the time limit with exit code 0, 1 or 3; a refusal must name the file in one line that begins with
+Each run must end within a minute of processor time with exit code 0, 1 or 3; a refusal must name the file in one line that begins with
 "error:"; a failed run must leave no output, and none may leave a partial file. Exit code 1 when one does not.
 """
 from measures import table
@@ -8,7 +8,8 @@ from pool import Job
 
 PAGE = "bad_inputs.md"
 DATA = "bad"
-SECONDS = 60
+SECONDS = 600  # of a machine that may be busy
+MOST_CPU_SECONDS = 60
 EXIT_NAMES = {0: "meshed", 1: "meshed, gate failed", 3: "refused"}
 
 
@@ -28,6 +29,8 @@ def faults(record):
     errors = [m for m in step["messages"] if m.startswith("error: ")]
     if code not in EXIT_NAMES:
         yield f"exit {code}: {' '.join(step['messages'])[-200:]}"
+    if step["cpu_seconds"] > MOST_CPU_SECONDS:
+        yield f"{step['cpu_seconds']:.0f} s of processor time"
     if code in (1, 3) and not errors:
         yield "no message"
     if code == 3 and not any(record["model"] in m for m in errors):
@@ -44,11 +47,11 @@ def row(record):
     step = record["steps"][-1]
     said = [m for m in step["messages"] if m.startswith("error: ")] or [m for m in step["messages"] if m.startswith("warning: ")]
     said = [record["model"] + m.split(record["model"], 1)[1] if record["model"] in m else m.split(": ", 1)[1] for m in said]
-    return [record["model"], EXIT_NAMES.get(step["exit"], step["exit"]), f"{step['seconds']:.1f}", "; ".join(said)[:300]]
+    return [record["model"], EXIT_NAMES.get(step["exit"], step["exit"]), f"{step['cpu_seconds']:.1f}", "; ".join(said)[:300]]
 
 
 def page(records, args):
     codes = [r["steps"][-1]["exit"] for r in records]
     counts = ", ".join(f"{codes.count(code)} {name}" for code, name in EXIT_NAMES.items())
     return (f"# Bad inputs\n\nMade by `{args.command}`. Every file ends with a mesh or with a message that names the file and the remedy.\n\n"
-            f"{counts}; {len(problems(records))} with problems.\n\n" + table(["file", "outcome", "s", "message"], "llrl", map(row, records)))
+            f"{counts}; {len(problems(records))} with problems.\n\n" + table(["file", "outcome", "CPU s", "message"], "llrl", map(row, records)))

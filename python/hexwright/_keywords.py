@@ -54,7 +54,7 @@ class MeshOptions(TypedDict, total=False):
     no_loop: bool
     """A single pass with a stricter a-priori sizing, instead of refining where the fit missed. Default: false."""
     max_hexes: int
-    """Budget of the background mesh. Default: 2000000."""
+    """The mesh has no more hexes: the nearest to the surface that they allow; with --size or --cells, more are an error. Default: none."""
     pairing: Literal["blocks", "none", "octree", "sheets"]
     """How the grid is made hexmeshable. Default: blocks."""
     balance: Literal["auto", "relaxed", "strong", "weak"]

@@ -20,6 +20,7 @@
 #include "hexwright/pipeline/inspect.h"
 #include "hexwright/pipeline/mesh_cad.h"
 #include "hexwright/pipeline/report.h"
+#include "hexwright/quality/judge_distance.h"
 #include "hexwright/quality/verdict_json.h"
 
 #include "arrays.h"
@@ -145,7 +146,7 @@ nb::tuple fit_mesh(const HexMesh& background, const TriMesh& surface,
       throw Error(ErrorCode::BadGeometry,
                   "no hex lies inside the surface; the mesh and the surface must overlap and the "
                   "hexes be smaller than the object");
-    JudgeOptions judged;
+    JudgeOptions judged{.bound_gap = kBoundOfTolerance * options.fit.tolerance};
     if (options.fit.carve.side != Side::Inside) judged.quads = JudgedQuads::Labeled;
     verdict = judge(result.fit.mesh, target, judged, context);
     result.to_world(target.frame);
@@ -161,7 +162,8 @@ nb::tuple check(const HexMesh& mesh, const TriMesh* surface,
   apply_options(make_option_table(target.features), call.options);
   if (surface) add_features(*surface, features, target.features);
   const auto [verdict, warnings] = run_for(call, [&](const Context& context) {
-    return surface ? judge(mesh, *surface, target, {}, context) : judge(mesh, {}, context);
+    const JudgeOptions judged{.bound_gap = kBoundOfTolerance * SizingOptions{}.tolerance};
+    return surface ? judge(mesh, *surface, target, judged, context) : judge(mesh, {}, context);
   });
   return nb::make_tuple(verdict_to_json(verdict), verdict_to_text(verdict), warnings);
 }

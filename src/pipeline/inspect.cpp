@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/shape_diameter.h"
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/pipeline/plan.h"
 
+#include "base/words.h"
 #include "geometry/topology/closed_pieces.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "mesh/tri_measures.h"
+#include "pipeline/bodies_apart.h"
 
 namespace hexwright {
 namespace {
@@ -44,12 +48,16 @@ void count_pieces(const TriMesh& mesh, SurfaceInspection& result) {
   }
 }
 
+std::vector<TriPair> find_crossing_pairs(const TriMesh& unit) {
+  return find_near_pairs(unit, 0, [&](TriId a, TriId b) {
+    return find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth).has_value();
+  });
+}
+
 void find_crossings(const TriMesh& mesh, SurfaceInspection& result) {
   const Similarity frame = compute_unit_frame(mesh);
   const TriMesh unit = to_unit(mesh, frame);
-  const std::vector<TriPair> pairs = find_near_pairs(unit, 0, [&](TriId a, TriId b) {
-    return find_crossing(unit.corners(a), unit.corners(b), kCrossingDepth).has_value();
-  });
+  const std::vector<TriPair> pairs = find_crossing_pairs(unit);
   result.num_crossings = pairs.size();
   const std::size_t num_shown = std::min(pairs.size(), result.kMaxPlaces);
   for (std::size_t i = 0; i < num_shown; ++i) {
@@ -83,6 +91,27 @@ void find_thin(const Target& target, double share, const Context& context,
   }
 }
 
+/// What mesh would do about what preparation leaves.
+void foretell(const Target& target, const MeshOptions& options, SurfaceInspection& result) {
+  const std::size_t num_groups = split_near_bodies(target, plan_gap(options, target)).size();
+  if (num_groups > 1)
+    result.notes.push_back(fmt::format(
+        "bodies that touch or nearly touch are meshed each by itself, in {} groups (--gap)",
+        num_groups));
+  const std::size_t num_crossings = find_crossing_pairs(target.surface()).size();
+  if (num_crossings > 0)
+    result.notes.push_back(fmt::format(
+        "a surface that crosses itself, at {} of triangles: inside is where it winds around; walls "
+        "inside are left out of sizes, features and distances; where it crosses, the mesh is "
+        "rounded by about a cell",
+        counted(num_crossings, "pair", "pairs")));
+  if (result.num_thin_samples > 0)
+    result.notes.push_back(fmt::format(
+        "walls thinner than the tolerance are kept only where cells are as small: for all of them "
+        "--tolerance {:.2g}%",
+        100 * std::max(result.least_thickness / result.box.diagonal(), 1e-5)));
+}
+
 void measure_object(const TriMesh& surface, const MeshOptions& options, const Context& context,
                     SurfaceInspection& result) {
   const Target target = make_target(surface, plan_target(options), context);
@@ -93,6 +122,7 @@ void measure_object(const TriMesh& surface, const MeshOptions& options, const Co
   result.sharp_length = target.frame.length_to_world(target.features.total_length());
   result.num_sharp_curves = target.features.curves.size();
   result.num_corners = target.features.corners.size();
+  foretell(target, options, result);
 }
 
 }  // namespace

@@ -11,9 +11,11 @@
 #include "hexwright/grid/locate.h"
 #include "hexwright/pipeline/plan.h"
 #include "hexwright/pipeline/size_plan.h"
+#include "hexwright/quality/judge_distance.h"
 
 #include "base/stage_log.h"
 #include "pipeline/bodies_apart.h"
+#include "pipeline/budget_search.h"
 #include "pipeline/loop/budgets.h"
 #include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/loop.h"
@@ -94,6 +96,16 @@ IdVector<HexId, std::int8_t> find_levels(const HexMesh& mesh, const Grid& grid) 
   return levels;
 }
 
+/// Of the result alone: rounds are told apart by what samples say.
+void bound_distance(const RoundInput& input, Round& best) {
+  if (!best.verdict.distance) return;
+  JudgeOptions judged = input.plan.judge;
+  judged.bound_gap = kBoundOfTolerance * input.options.sizing.tolerance;
+  best.verdict.distance = run_stage(best.stages, "bound", input.context, [&] {
+    return judge_distance(best.fit.mesh, input.target, judged);
+  });
+}
+
 /// Grid, hexes, fit; again where the fit missed. In the world's coordinates.
 MeshResult mesh_target(const Target& target, const MeshOptions& options, const Context& context) {
   MeshResult result;
@@ -109,6 +121,7 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   best = refine_where_poor(input, std::move(best), result);
   best = layer_round(input, std::move(best), result);
   if (options.exact) result.exact = put_on_exact_shape(input, best);
+  bound_distance(input, best);
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   result.levels = find_levels(result.mesh, result.grid);
@@ -148,7 +161,9 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
   result.surface = target.diagnosis;
   result.surface.notes.push_back(fmt::format(
       "bodies that touch or nearly touch are meshed each by itself, in {} groups", parts.size()));
-  result.verdict = judge(to_unit(result.mesh, target.frame), target, plan_judge(options), context);
+  JudgeOptions judged = plan_judge(options);
+  judged.bound_gap = kBoundOfTolerance * options.sizing.tolerance;
+  result.verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
   for (const std::string& failure : result.verdict.failures)
     if (std::ranges::find(result.failures, failure) == result.failures.end())
       result.failures.push_back(failure);
@@ -171,6 +186,13 @@ void MeshResult::to_world(const Similarity& frame) {
   edges.to_world(frame);
 }
 
+namespace {
+
+/// Then the budget can only be kept or broken.
+bool sets_size(const SizeWishes& sizes) { return sizes.size.is_given() || sizes.cells > 0; }
+
+}  // namespace
+
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const Context& caller) {
   const Stopwatch clock;
   const MeshOptions options = resolve_sizes(wishes, surface);
@@ -178,12 +200,12 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const
   std::vector<std::string> warnings;
   const Context context = collect_warnings(caller, warnings);
   const Target target = make_target(surface, plan_target(options), context);
-  MeshResult result = search_sizes(
-      target, options,
-      [&](const MeshOptions& sized, const Context& of_run) {
-        return mesh_bodies(target, sized, of_run);
-      },
-      context);
+  const auto run = [&](const MeshOptions& sized, const Context& of_run) {
+    return mesh_bodies(target, sized, of_run);
+  };
+  MeshResult result = options.most_hexes > 0 && !sets_size(options.sizes)
+                          ? search_budget(options, run, context)
+                          : search_sizes(target, options, run, context);
   result.size_asked = wishes.sizes.size.in(bounding_box(surface).diagonal());
   result.warnings = std::move(warnings);
   result.seconds = clock.seconds();

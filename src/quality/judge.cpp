@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/quality/judge_distance.h"
+
 #include "mesh/tri_measures.h"
 
 namespace hexwright {
@@ -94,7 +96,8 @@ DistanceOptions distance_options(const Target& target, const JudgeOptions& optio
   return {.quads = options.quads,
           .spacing = options.spacing,
           .hot_threshold = options.hot_threshold,
-          .solid_only = !target.expected.is_known};
+          .solid_only = !target.expected.is_known,
+          .bound_gap = options.bound_gap};
 }
 
 void compare_volume(Verdict& verdict, const Target& target, const JudgeOptions& options) {
@@ -137,7 +140,7 @@ Verdict judge(const HexMesh& mesh, const Target& target, const JudgeOptions& opt
   verdict.surface = target.topology;
   compare_topology(verdict, options);
   compare_volume(verdict, target, options);
-  verdict.distance = measure_distance(mesh, target.tree, distance_options(target, options));
+  verdict.distance = judge_distance(mesh, target, options);
   warn_of_other_place(verdict);
   context.check_cancelled();
   context.progress("check", 0.9);
@@ -153,6 +156,11 @@ Verdict judge(const HexMesh& mesh, const TriMesh& surface, const TargetOptions& 
   Verdict verdict = judge(to_unit(mesh, target.frame), target, options, context);
   verdict.to_world(target.frame);
   return verdict;
+}
+
+SurfaceDistance judge_distance(const HexMesh& mesh, const Target& target,
+                               const JudgeOptions& options) {
+  return measure_distance(mesh, target.tree, distance_options(target, options));
 }
 
 void Verdict::to_world(const Similarity& frame) {

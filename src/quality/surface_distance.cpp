@@ -17,6 +17,7 @@
 #include "hexwright/geometry/surface_topology.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
+#include "quality/bound_both_ways.h"
 #include "quality/triangle_samples.h"
 
 namespace hexwright {
@@ -87,11 +88,12 @@ class SampleMeter {
  public:
   explicit SampleMeter(const Reference& reference) : reference_(reference) {}
 
-  void add(const Vec3& p, double weight) {
+  /// Returns the distance, whether it counts or not.
+  double add(const Vec3& p, double weight) {
     const double d = distance_to_reference(p);
     if (!counts(p, d)) {
       partial_.excused_weight += weight;
-      return;
+      return d;
     }
     if (d > partial_.max) {
       partial_.max = d;
@@ -100,8 +102,10 @@ class SampleMeter {
     partial_.weighted_sum += weight * d;
     partial_.weight += weight;
     if (d > reference_.hot_distance) partial_.hot.push_back(p);
+    return d;
   }
   const Partial& partial() const { return partial_; }
+  TriId nearest() const { return nearest_; }  ///< to the last sample
 
  private:
   /// Whether a sample counts. What would be the largest so far, or a place to refine, is tested
@@ -119,31 +123,50 @@ class SampleMeter {
 
   double distance_to_reference(const Vec3& p) {
     ClosestFilter filter;
+    filter.hint = nearest_;
     if (has_previous_) filter.max_distance = (previous_distance_ + distance(p, previous_)) * kSlack;
     auto hit = reference_.tree.closest(p, filter);
     if (!hit && has_previous_) hit = reference_.tree.closest(p);
     if (!hit) return std::numeric_limits<double>::infinity();
     has_previous_ = true;
     previous_ = p;
+    nearest_ = hit->tri;
     return previous_distance_ = std::sqrt(hit->distance_sq);
   }
 
   const Reference& reference_;
   Partial partial_;
   bool has_previous_ = false;
+  TriId nearest_;
   Vec3 previous_;
   double previous_distance_ = 0;
   std::optional<Vec3> last_tested_;
   bool last_counts_ = true;
 };
 
-Partial measure(const TriMesh& sampled, const Reference& reference, double spacing) {
+/// Fills what bounds ask of the vertices, when that is given.
+Partial measure(const TriMesh& sampled, const Reference& reference, double spacing,
+                SampledDirection* of_verts) {
   const TriangleSamples samples(sampled, spacing);
+  const std::size_t num_verts = of_verts ? samples.used_verts().size() : 0;
+  if (of_verts) {
+    of_verts->vert_distance.assign(sampled.num_verts(), 0);
+    of_verts->vert_nearest.assign(sampled.num_verts(), TriId());
+  }
   Partial total = parallel_reduce(
       samples.size(), Partial{},
       [&](std::size_t begin, std::size_t end) {
         SampleMeter meter(reference);
-        samples.visit(begin, end, [&](const Vec3& p, double weight) { meter.add(p, weight); });
+        std::size_t at = begin;
+        samples.visit(begin, end, [&](const Vec3& p, double weight) {
+          const double d = meter.add(p, weight);
+          if (at < num_verts) {
+            const std::size_t v = samples.used_verts()[at].index();
+            of_verts->vert_distance[v] = d;
+            of_verts->vert_nearest[v] = meter.nearest();
+          }
+          ++at;
+        });
         return meter.partial();
       },
       combine, kGrain);
@@ -154,6 +177,14 @@ Partial measure(const TriMesh& sampled, const Reference& reference, double spaci
 /// Zero when every sample was excused.
 double max_of(const Partial& p) { return p.weight > 0 || p.excused_weight == 0 ? p.max : 0; }
 double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weight : max_of(p); }
+
+void take_bounds(const BoundsBothWays& bounds, double diagonal, SurfaceDistance& result) {
+  result.max_to_mesh = bounds.to_mesh.lower / diagonal;
+  result.max_to_surface = bounds.to_surface.lower / diagonal;
+  result.worst_on_surface = bounds.to_mesh.worst;
+  result.worst_on_mesh = bounds.to_surface.worst;
+  result.upper = {bounds.to_mesh.upper / diagonal, bounds.to_surface.upper / diagonal};
+}
 
 }  // namespace
 
@@ -173,7 +204,8 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
     throw Error(ErrorCode::BadGeometry, "the surface has no extent to measure distances by");
   const double hot = options.hot_threshold > 0 ? options.hot_threshold * diagonal
                                                : std::numeric_limits<double>::infinity();
-  const SurfaceTree boundary(triangulate_quads(mesh, collect_judged_quads(mesh, options.quads)));
+  const std::vector<std::array<VertId, 4>> quads = collect_judged_quads(mesh, options.quads);
+  const SurfaceTree boundary(triangulate_quads(mesh, quads));
   const double spacing = options.spacing * diagonal;
   // A boundary many times as large as the surface (other units) would take that many samples
   // squared.
@@ -189,14 +221,24 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   };
   const double trusted = kTrustedDistance * diagonal, rounding = kRounding * diagonal,
                radius = kSameRadius * diagonal;
-  Partial to_mesh = measure(
-      surface.surface(),
-      {boundary, hot, is_off_solid, options.solid_only, trusted, rounding, radius}, spacing);
   // The winding number of a closed surface changes on it only: there is no hole to close.
   const bool has_holes = options.solid_only && !is_oriented_cycle(surface.surface());
-  const Partial to_surface =
+  const auto counts_on_surface = [&](const Vec3& p, double d) {
+    return d <= rounding || !is_off_solid(p, d);
+  };
+  const auto counts_on_mesh = [&](const Vec3& p, double d) {
+    return d <= rounding || !closes_hole(p, d);
+  };
+  SampledDirection on_surface{.counts = counts_on_surface, .has_excuses = options.solid_only};
+  SampledDirection on_mesh{.counts = counts_on_mesh, .has_excuses = has_holes};
+  const bool is_bounded = options.bound_gap > 0;
+  Partial to_mesh =
+      measure(surface.surface(),
+              {boundary, hot, is_off_solid, options.solid_only, trusted, rounding, radius}, spacing,
+              is_bounded ? &on_surface : nullptr);
+  Partial to_surface =
       measure(boundary.surface(), {surface, hot, closes_hole, has_holes, trusted, rounding, radius},
-              boundary_spacing);
+              boundary_spacing, is_bounded ? &on_mesh : nullptr);
 
   SurfaceDistance result;
   result.max_to_mesh = max_of(to_mesh) / diagonal;
@@ -209,6 +251,15 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   result.ignored_share = all > 0 ? to_mesh.excused_weight / all : 0;
   result.hot = std::move(to_mesh.hot);
   result.hot.insert(result.hot.end(), to_surface.hot.begin(), to_surface.hot.end());
+  if (!is_bounded || quads.empty() || surface.surface().num_tris() == 0) return result;
+  on_surface.max = max_of(to_mesh);
+  on_surface.worst = to_mesh.worst;
+  on_mesh.max = max_of(to_surface);
+  on_mesh.worst = to_surface.worst;
+  take_bounds(
+      bound_both_ways({mesh, quads, surface, boundary, options.bound_gap * diagonal, 0.5 * spacing},
+                      on_surface, on_mesh),
+      diagonal, result);
   return result;
 }
 

@@ -17,6 +17,9 @@ class TriangleSamples {
 
   std::size_t size() const { return used_verts_.size() + offset_.back(); }
 
+  /// The vertices of the surface that come first, in this order.
+  const std::vector<VertId>& used_verts() const { return used_verts_; }
+
   /// Calls `visit(point, weight)` for samples begin .. end-1. The weights of all samples integrate
   /// functions that are linear between samples exactly.
   void visit(std::size_t begin, std::size_t end,

@@ -59,11 +59,15 @@ Json to_json(const SecondOrderQuality& q) {
 }
 
 Json to_json(const SurfaceDistance& d) {
+  const auto upper = [&](double bound) { return d.upper ? Json(bound) : Json(nullptr); };
   return {{"max", d.max_two_way()},
+          {"max_upper_bound", upper(d.upper ? d.upper->two_way() : 0)},
           {"mean", d.mean_two_way()},
           {"max_to_mesh", d.max_to_mesh},
+          {"max_to_mesh_upper_bound", upper(d.upper ? d.upper->to_mesh : 0)},
           {"mean_to_mesh", d.mean_to_mesh},
           {"max_to_surface", d.max_to_surface},
+          {"max_to_surface_upper_bound", upper(d.upper ? d.upper->to_surface : 0)},
           {"mean_to_surface", d.mean_to_surface},
           {"ignored_share", d.ignored_share},
           {"worst_on_surface", to_json(d.worst_on_surface)},

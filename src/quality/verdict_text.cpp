@@ -76,8 +76,10 @@ std::string volume_line(const Verdict& v) {
 }
 
 std::string distance_lines(const SurfaceDistance& d) {
-  return line("distance", fmt::format("largest {:.4f} %, mean {:.4f} % of the diagonal",
-                                      100 * d.max_two_way(), 100 * d.mean_two_way())) +
+  const std::string bound =
+      d.upper ? fmt::format(" (proven: at most {:.4f} %)", 100 * d.upper->two_way()) : "";
+  return line("distance", fmt::format("largest {:.4f} %{}, mean {:.4f} % of the diagonal",
+                                      100 * d.max_two_way(), bound, 100 * d.mean_two_way())) +
          line("", fmt::format("surface to mesh {:.4f} % ({:.4f} %), mesh to surface {:.4f} % "
                               "({:.4f} %)",
                               100 * d.max_to_mesh, 100 * d.mean_to_mesh, 100 * d.max_to_surface,

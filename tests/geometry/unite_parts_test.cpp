@@ -1,5 +1,7 @@
 // Solids that overlap, touch, lie in each other, or share faces, made into their union.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -50,6 +52,36 @@ void expect_as_given(const PreparedSurface& p, const TriMesh& input) {
   }
 }
 
+/// A box with a slit of no width from one side to its middle, whose walls have other vertices: one
+/// is whole, the other in three pieces.
+TriMesh slit_box() {
+  const std::vector<Vec3> outline = {{0, 0, 0}, {10, 0, 0}, {10, 5, 0},  {8.1, 5, 0}, {5.3, 5, 0},
+                                     {3, 5, 0}, {10, 5, 0}, {10, 10, 0}, {0, 10, 0}};
+  TriMesh mesh;
+  const std::size_t n = outline.size();
+  for (const double z : {0.0, 4.0})
+    for (const Vec3& p : outline) mesh.positions.push_back({p.x, p.y, z});
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    mesh.tris.push_back({VertId(a), VertId(b), VertId(c)});
+  };
+  for (const auto& [a, b, c] : {std::array<std::size_t, 3>{0, 1, 2},
+                                {0, 2, 3},
+                                {0, 3, 4},
+                                {0, 4, 5},
+                                {0, 5, 8},
+                                {5, 7, 8},
+                                {5, 6, 7}}) {
+    add(n + a, n + b, n + c);
+    add(c, b, a);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    add(i, j, n + j);
+    add(i, n + j, n + i);
+  }
+  return test::welded(mesh);
+}
+
 /// A closed two-manifold of the given volume, components and genus.
 void expect_solid(const PreparedSurface& p, double expected_volume, std::size_t num_components,
                   long genus = 0) {
@@ -65,6 +97,26 @@ void expect_solid(const PreparedSurface& p, double expected_volume, std::size_t 
 
 const TriMesh kPlate = box_surface({0, 0, 0}, {10, 10, 2}),
               kPost = box_surface({3, 3, -1}, {7, 7, 9});
+
+TEST(CloseSlits, ASlitWithoutWidthIsClosedAndSaid) {
+  for (const double angle : {0.0, 0.3}) {
+    TriMesh surface = slit_box();
+    for (Vec3& p : surface.positions)  // rounded as in a file of single precision
+      p = {static_cast<float>(std::cos(angle) * p.x - std::sin(angle) * p.y),
+           static_cast<float>(std::sin(angle) * p.x + std::cos(angle) * p.y), p.z};
+    const PreparedSurface closed = prepare_surface(surface, {});
+    const SurfaceTopology topology = compute_topology(closed.mesh);
+    EXPECT_TRUE(topology.is_closed_manifold());
+    EXPECT_EQ(topology.num_components, 1u);
+    EXPECT_EQ(topology.genus(), 0);
+    EXPECT_NEAR(enclosed_volume(closed.mesh), 400, 1e-3);
+    EXPECT_TRUE(std::ranges::any_of(closed.diagnosis.notes, [](const std::string& note) {
+      return note.find("slits without width closed") != std::string::npos;
+    }));
+    const PreparedSurface kept = prepare_surface(surface, {.parts = Parts::Separate}, {});
+    EXPECT_FALSE(compute_topology(kept.mesh).is_closed_manifold());
+  }
+}
 
 TEST(UniteParts, CrossingBoxesBecomeOne) {
   const TriMesh input = joined({kPlate, kPost});
@@ -196,6 +248,20 @@ TEST(UniteParts, VerticesOfTheInputKeepTheirPlaces) {
     num_kept +=
         std::find(input.positions.begin(), input.positions.end(), x) != input.positions.end();
   EXPECT_EQ(num_kept, 16u);
+}
+
+TEST(SmallParts, CrevicesThatNoCellResolvesAreFilled) {
+  const auto with_void = [](double height) {
+    return joined({box_surface({0, 0, 0}, {10, 10, 10}),
+                   reversed(box_surface({3, 3, 5}, {7, 7, 5 + height}))});
+  };
+  PrepareOptions options;
+  options.min_part = 0.005;
+  const PreparedSurface filled = prepare_surface(with_void(0.002), options, {});
+  expect_solid(filled, 1000, 1);
+  EXPECT_EQ(filled.diagnosis.num_small_voids, 1u);
+  const PreparedSurface kept = prepare_surface(with_void(0.05), options, {});
+  expect_solid(kept, 1000 - 16 * 0.05, 2);
 }
 
 TEST(SmallParts, AreLeftOutWithTheirPlace) {

@@ -59,6 +59,29 @@ TEST(Inspect, ThinSpotsAndCavitiesAreTold) {
   ASSERT_FALSE(s.thin.empty());
   EXPECT_NEAR(s.thin[0].length, 0.2, 1e-4);
   EXPECT_LT(s.thin[0].position.z, 0.3);
+  EXPECT_TRUE(std::ranges::any_of(s.notes, [](const std::string& note) {
+    return note.find("walls thinner than the tolerance") != std::string::npos;
+  }));
+}
+
+TEST(Inspect, WhatMeshWouldDoAboutNearBodiesAndCrossingsIsSaid) {
+  const auto says = [](const TriMesh& surface, const char* text) {
+    return std::ranges::any_of(
+        inspect_surface(surface, {}, {}).notes,
+        [&](const std::string& note) { return note.find(text) != std::string::npos; });
+  };
+  TriMesh near, far;
+  append(near, box_surface({0, 0, 0}, {10, 10, 4}), "a");
+  append(near, box_surface({0, 0, 4.02}, {10, 10, 8}), "b");
+  append(far, box_surface({0, 0, 0}, {10, 10, 3}), "a");
+  append(far, box_surface({0, 0, 5}, {10, 10, 8}), "b");
+  EXPECT_TRUE(says(near, "in 2 groups"));
+  EXPECT_FALSE(says(far, "groups"));
+  // One closed shell, pulled through itself.
+  TriMesh crossed = box_surface({0, 0, 0}, {10, 10, 4});
+  crossed.positions[VertId(0)] = {5, 5, 7};
+  EXPECT_TRUE(says(crossed, "crosses itself"));
+  EXPECT_FALSE(says(far, "crosses itself"));
 }
 
 TEST(Inspect, WhatWouldBeRefusedIsSaidAndNotThrown) {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "hexwright/base/error.h"
@@ -282,6 +283,40 @@ TEST(MeshSurface, BudgetsCostLevelsBeforeTheyCostTheMesh) {
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::OutOfResources);
   }
+}
+
+TEST(MeshSurface, MoreHexesNeverGiveAMeshThatIsFartherOff) {
+  MeshOptions options;
+  options.sizing.tolerance = 0.001;
+  const TriMesh surface = test::unit_sphere_surface(4);
+  double last = 1;
+  std::size_t hexes = 0;
+  for (const std::size_t most : {200u, 500u, 1200u, 3000u}) {
+    options.most_hexes = most;
+    const MeshResult r = mesh_surface(surface, options, {});
+    EXPECT_LE(r.mesh.num_hexes(), most);
+    EXPECT_LE(r.verdict.distance->max_two_way(), last);
+    last = r.verdict.distance->max_two_way();
+    hexes = r.mesh.num_hexes();
+    ASSERT_GT(last, options.sizing.tolerance);
+    EXPECT_TRUE(std::ranges::any_of(r.warnings, [&](const std::string& w) {
+      return w.find(fmt::format("budget of {} hexes", most)) != std::string::npos &&
+             w.find("raise --max-hexes") != std::string::npos;
+    }));
+  }
+  EXPECT_GT(hexes, 1000u);  // most of what is allowed is used
+}
+
+TEST(MeshSurface, ABudgetThatIsNotUsedUpChangesNothing) {
+  MeshOptions options;
+  const TriMesh surface = test::unit_sphere_surface(3);
+  const MeshResult free = mesh_surface(surface, options, {});
+  options.most_hexes = free.mesh.num_hexes();
+  const MeshResult bound = mesh_surface(surface, options, {});
+  EXPECT_EQ(bound.mesh.positions.raw(), free.mesh.positions.raw());
+  EXPECT_EQ(bound.warnings, free.warnings);
+  options.most_hexes = 1;
+  EXPECT_THROW(mesh_surface(surface, options, {}), Error);
 }
 
 TEST(MeshSurface, StopsWhenCancelled) {

@@ -61,16 +61,31 @@ TEST(Plan, DefectiveSurfacesGetAShareOfTheBudget) {
   const Budgets open = plan(wishes, wrap_target(open_cube())).budgets;
   EXPECT_EQ(sound.rounds, wishes.max_loop_hexes);
   EXPECT_EQ(open.rounds, wishes.max_loop_hexes / 4);
+  EXPECT_TRUE(open.is_shortened);  // which the sentence says
+  EXPECT_NE(say_exceeded(Budget::Rounds, 1e6, open).find("a quarter"), std::string::npos);
+  EXPECT_EQ(say_exceeded(Budget::Rounds, 1e6, sound).find("a quarter"), std::string::npos);
   EXPECT_EQ(open.background, wishes.max_hexes);
   EXPECT_EQ(sound.growth, std::numeric_limits<double>::infinity());
   EXPECT_LT(open.growth, 3);
 }
 
+TEST(Plan, GuardsFollowALargeBudgetOfHexes) {
+  MeshOptions wishes;
+  wishes.most_hexes = 10'000'000;
+  const StagePlan large = plan(wishes, wrap_target(test::unit_cube_surface()));
+  EXPECT_GE(large.budgets.background, wishes.most_hexes);
+  EXPECT_GE(large.budgets.rounds, wishes.most_hexes);
+  EXPECT_GE(large.sizing.max_cells, wishes.most_hexes);
+  wishes.most_hexes = 1000;
+  const StagePlan small = plan(wishes, wrap_target(test::unit_cube_surface()));
+  EXPECT_EQ(small.budgets.background, wishes.max_hexes);
+}
+
 TEST(Budgets, SayWhichHowMuchAndWhatToDo) {
   const Budgets budgets{.background = 1000, .rounds = 5000, .growth = 2.5};
   EXPECT_EQ(say_exceeded(Budget::Background, 1234, budgets),
-            "the background mesh would have 1234 cells, more than the budget of 1000; raise the "
-            "budget of hexes or the tolerance");
+            "the background mesh would have 1234 cells, more than the budget of 1000; raise "
+            "--max-hexes or the tolerance");
   EXPECT_NE(say_exceeded(Budget::Rounds, 6000, budgets)
                 .find("6000 hexes, more than the budget of "
                       "5000"),

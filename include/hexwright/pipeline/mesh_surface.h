@@ -63,11 +63,14 @@ struct MeshOptions {
   /// with; it refines along curves that are followed too coarsely, and along others until their
   /// cells are short enough for a path. 0 = not for features.
   double min_feature_share = 0.98;
-  int loop_extra_levels = 3;          ///< the loop may go so much deeper than sizing.max_level
-  std::size_t max_hexes = 2'000'000;  ///< budget of one background mesh
-  /// Budget of the loop: no further round once the background meshes of all rounds together would
-  /// exceed it; a quarter of it for open and overlapping surfaces. Counts, not seconds, so that
-  /// results do not depend on the machine.
+  int loop_extra_levels = 3;  ///< the loop may go so much deeper than sizing.max_level
+  /// The result has no more hexes than this, and is the best that they allow; 0 = as many as the
+  /// tolerance takes. The guards below, which only say where a run ends, follow from it.
+  std::size_t most_hexes = 0;
+  std::size_t max_hexes = 2'000'000;  ///< of one background mesh; at least four times most_hexes
+  /// Of the background meshes of all rounds together, beyond which there is no further round; a
+  /// quarter of it for open and overlapping surfaces, which the warning says. Counts, not seconds,
+  /// so that results do not depend on the machine. At least 1.4 times most_hexes.
   std::size_t max_loop_hexes = 700'000;
 };
 
@@ -142,7 +145,7 @@ struct MeshResult {
 ///
 /// Works in normalised coordinates, so that tiny, huge and far models are all alike; the result is
 /// in the input's. Same result for any thread count.
-/// Errors: those of prepare_surface; OutOfResources when the budgets leave no mesh.
+/// Errors: those of prepare_surface; OutOfResources when the budget leaves no mesh.
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& options, const Context& context);
 
 }  // namespace hexwright

@@ -14,6 +14,7 @@ struct Budgets {
   std::size_t rounds = std::numeric_limits<std::size_t>::max();      ///< of all rounds' backgrounds
   /// Cells of the next grid over those of the last, from a valid mesh within the gate.
   double growth = std::numeric_limits<double>::infinity();
+  bool is_shortened = false;  ///< for an open or overlapping surface: rounds are a share of theirs
 };
 
 /// Options of the stages as they run, in the target's coordinates.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "hexwright/geometry/similarity.h"
@@ -31,13 +32,25 @@ struct DistanceOptions {
   /// not bound the solid (overlapped parts, by the winding number on both sides); on the mesh,
   /// those where the winding number closes a hole of the surface.
   bool solid_only = true;
+  /// With upper bounds of the largest distances, so near to the distances found (share of the
+  /// diagonal); 0 = without.
+  double bound_gap = 0;
+};
+
+/// No point is farther: of the surface's triangles and of the patches that the boundary's quads
+/// are to solvers (bilinear, or of second order). Shares of the diagonal.
+struct DistanceUpperBound {
+  double to_mesh = 0, to_surface = 0;
+  double two_way() const { return std::max(to_mesh, to_surface); }
 };
 
 /// Distances as shares of the surface's bounding-box diagonal.
 struct SurfaceDistance {
   double max_to_mesh = 0, mean_to_mesh = 0;        ///< from the surface to the mesh's boundary
   double max_to_surface = 0, mean_to_surface = 0;  ///< from the mesh's boundary to the surface
-  Vec3 worst_on_surface, worst_on_mesh;            ///< where the maxima are reached
+  /// With a DistanceOptions::bound_gap. The maxima then are lower bounds for the same patches.
+  std::optional<DistanceUpperBound> upper;
+  Vec3 worst_on_surface, worst_on_mesh;  ///< where the maxima are reached
   double ignored_share = 0;  ///< of the surface's samples, by area: left out by solid_only
   std::vector<Vec3> hot;     ///< samples farther than hot_threshold
   double max_two_way() const { return std::max(max_to_mesh, max_to_surface); }

@@ -289,6 +289,7 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
   diagnosis.num_united_parts = united.num_parts;
   diagnosis.num_unions = united.num_results;
   diagnosis.num_duplicate_tris += remove_duplicate_tris(work);
+  const bool had_slits = close_slits(work, options.parts);
   const std::vector<SmallPart> small =
       drop_small_parts(work, options.min_part * bounding_box(work.mesh).diagonal());
   diagnosis.num_hidden_parts = drop_hidden_parts(work);
@@ -298,6 +299,10 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
   diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
   describe_small(small, frame, diagnosis);
   describe_union(united, diagnosis);
+  if (had_slits)
+    diagnosis.notes.push_back(
+        "slits without width closed: walls that lie on each other are none (--parts separate keeps "
+        "them)");
   for (const std::string& warning : diagnosis.warnings) context.warn(warning);
   result.mesh = compact(work, frame, renumber(input.positions, old_to_new));
   result.source_tri = std::move(work.source);

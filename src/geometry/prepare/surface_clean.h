@@ -57,6 +57,10 @@ struct UniteReport {
 UniteReport unite_parts(WorkingSurface& surface, Parts parts,
                         const IdVector<TriId, std::int32_t>& groups);
 
+/// Closes slits without width: walls that lie on each other wholly, whatever their triangles, go.
+/// Returns whether there were any. Leaves the surface as it is where that would open it.
+bool close_slits(WorkingSurface& surface, Parts parts);
+
 /// A part that is too small to be meant, or to be meshed.
 struct SmallPart {
   Box3 box;              ///< in the unit frame
@@ -64,7 +68,8 @@ struct SmallPart {
 };
 
 /// Removes components no longer than `least` in any direction (unit frame), solids and voids alike,
-/// as long as a larger one remains, and those without thickness. Returns the former.
+/// and voids thinner than a tenth of it, as long as a larger one remains, and those without
+/// thickness. Returns the former.
 std::vector<SmallPart> drop_small_parts(WorkingSurface& surface, double least);
 
 /// Removes parts with the solid on both of their sides. They bound nothing, but sizing, features

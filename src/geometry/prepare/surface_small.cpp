@@ -10,6 +10,8 @@ namespace {
 
 /// Mean thickness, in the unit frame, below which a closed component is rounding.
 constexpr double kNoThickness = 1e-7;
+/// And voids below this share of the least part: crevices between parts that do not quite meet.
+constexpr double kThinVoid = 0.1;
 
 struct Component {
   Box3 box;
@@ -18,8 +20,12 @@ struct Component {
   bool is_closed = true;
 
   double size() const { return std::max({box.extent().x, box.extent().y, box.extent().z}); }
+  bool is_void() const { return is_closed && volume6 < 0; }
   /// Volume over half the area: the thickness, were it a sheet.
-  bool is_flat() const { return is_closed && std::abs(volume6) / 6 < kNoThickness * area2 / 4; }
+  bool is_thinner(double than) const {
+    return is_closed && std::abs(volume6) / 6 < than * area2 / 4;
+  }
+  bool is_flat() const { return is_thinner(kNoThickness); }
 };
 
 std::vector<Component> measure_components(const TriMesh& mesh,
@@ -49,7 +55,9 @@ std::vector<SmallPart> drop_small_parts(WorkingSurface& surface, double least) {
   const IdVector<TriId, int> tri_to_component = compute_components(surface.mesh);
   const std::vector<Component> components = measure_components(surface.mesh, tri_to_component);
   if (components.size() < 2) return {};
-  const auto is_small = [&](const Component& c) { return c.size() <= least; };
+  const auto is_small = [&](const Component& c) {
+    return c.size() <= least || (c.is_void() && c.is_thinner(kThinVoid * least));
+  };
   if (std::ranges::all_of(components,
                           [&](const Component& c) { return is_small(c) || c.is_flat(); }))
     return {};

@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/grid/rescale.h"
 #include "hexwright/pipeline/fewest_hexes.h"
 
 #include "pipeline/loop/budgets.h"
+#include "pipeline/loop/hex_limit.h"
 
 namespace hexwright {
 namespace {
@@ -209,7 +211,15 @@ CompleteResult even_out(const RoundInput& input, const Grid& given, bool is_even
 
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
   const MeshOptions& options = input.options;
+  const auto refuse = [&] {
+    throw Error(ErrorCode::OutOfResources,
+                fmt::format("the mesh would have more hexes than the budget of {}; raise "
+                            "--max-hexes or the tolerance",
+                            options.most_hexes));
+  };
+  if (!may_be_within_limit(input, completed.grid)) refuse();
   Round current = run_round(input, std::move(completed));
+  if (!is_within_limit(input, current)) refuse();
   std::size_t total_hexes = current.record.num_background;
   Round best = current;
   while (true) {
@@ -228,9 +238,14 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
           fmt::format("refinement stops after round {}: {}", result.num_rounds, exceeded));
       break;
     }
+    if (!may_be_within_limit(input, next.grid)) break;
     current = run_round(input, std::move(next));
     total_hexes += current.record.num_background;
     ++result.num_rounds;
+    if (!is_within_limit(input, current)) {
+      result.rounds.push_back(current.record);
+      break;
+    }
     if (is_better(input, current, best)) {
       best = current;
       result.best_round = result.num_rounds;

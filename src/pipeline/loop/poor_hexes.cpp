@@ -7,6 +7,9 @@
 #include "hexwright/mesh/hex_adjacency.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "pipeline/loop/demands.h"
+#include "pipeline/loop/hex_limit.h"
+
 namespace hexwright {
 namespace {
 
@@ -71,6 +74,12 @@ std::optional<CompleteResult> next_try(const RoundInput& input, const Round& rou
   return {};
 }
 
+/// With a budget of hexes, more of them never give a mesh that is farther off.
+bool keeps_budget(const RoundInput& input, const Round& before, const Round& after) {
+  return input.options.most_hexes == 0 ||
+         (is_within_limit(input, after) && max_distance(after) <= max_distance(before));
+}
+
 }  // namespace
 
 std::vector<Vec3> find_poor_places(const HexMesh& mesh, double goal) {
@@ -106,7 +115,7 @@ Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& resul
     num_spent += current.record.num_background;
     ++result.num_rounds;
     if (current.fit.mesh.num_hexes() > most_hexes || !meets_no_less(input, best, current) ||
-        least_quality(current) <= least_quality(best))
+        least_quality(current) <= least_quality(best) || !keeps_budget(input, best, current))
       continue;
     best = current;
     result.best_round = result.num_rounds;

@@ -213,7 +213,11 @@ OptionTable make_option_table(MeshOptions& options) {
                             "A single pass with a stricter a-priori sizing, instead of refining "
                             "where the fit missed"},
                            [&options] { use_single_pass(options); }));
-  table.push_back(count_row({"max-hexes", "Budget of the background mesh"}, options.max_hexes));
+  table.push_back(count_row({"max-hexes",
+                             "The mesh has no more hexes: the nearest to the surface that they "
+                             "allow; with --size or --cells, more are an error"},
+                            options.most_hexes));
+  table.back().fallback = "none";
   append(table, complete_rows(options.complete));
   append(table, fit_rows(options.fit));
   table.push_back(order_row(options.order));

@@ -25,10 +25,19 @@ constexpr std::size_t kDefectiveShare = 4;
 /// times the cells of a coarse mesh that came within the gate by luck.
 constexpr double kMaxGrowth = 2.5;
 
+/// Guards of a budget that is larger than they are: the background has cells outside too.
+constexpr double kBackgroundOfHexes = 4, kRoundsOfHexes = 1.4;
+
 Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
   const bool is_sound = target.expected.is_known && target.diagnosis.num_boundary_edges == 0;
-  Budgets budgets{.background = wishes.max_hexes, .rounds = wishes.max_loop_hexes};
+  const auto most = static_cast<double>(wishes.most_hexes);
+  const auto at_least = [&](std::size_t guard, double factor) {
+    return std::max(guard, static_cast<std::size_t>(factor * most));
+  };
+  Budgets budgets{.background = at_least(wishes.max_hexes, kBackgroundOfHexes),
+                  .rounds = at_least(wishes.max_loop_hexes, kRoundsOfHexes)};
   if (is_sound) return budgets;
+  budgets.is_shortened = true;
   budgets.rounds /= kDefectiveShare;
   budgets.growth = kMaxGrowth;
   return budgets;
@@ -77,6 +86,8 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   if (wishes.order == 2) plan.fit.patch_verts = PatchVerts::OnSurface;
   plan.judge = plan_judge(wishes);
   plan.budgets = plan_budgets(wishes, target);
+  if (wishes.most_hexes > 0)
+    plan.sizing.max_cells = std::max(plan.sizing.max_cells, plan.budgets.background);
   return plan;
 }
 

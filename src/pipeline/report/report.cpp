@@ -71,6 +71,7 @@ Json describe_options(const MeshOptions& o) {
           {"layers_min_coverage", o.layers.min_coverage},
           {"mean_share", o.mean_share},
           {"max_rounds", o.max_rounds},
+          {"most_hexes", o.most_hexes},
           {"max_hexes", o.max_hexes},
           {"max_loop_hexes", o.max_loop_hexes}};
 }
