@@ -69,7 +69,7 @@ STEPS = [
     ("flat", [*finer(BLOCK), ((0, 0, 4), (2.5, 0, 4), (5, 0, 4)), ((0, 10, 4), (5, 10, 4), (7.5, 10, 4))], [], "y", 0.6),
     ("copies", BLOCK + box((10, 0, 0), (16, 10, 4)) + BLOCK[:2], [], "y", 0.6),
     ("orient", turn_every_third(finer(BLOCK)), [], "y", 0.6),
-    ("holes", [t for t in finer(BLOCK) if not all(p[2] == 4 and 2 < p[0] < 8 and 2 < p[1] < 8 for p in t)], [], "y", 0.3),
+    ("holes", [t for t in finer(BLOCK) if not all(p[2] == 4 and 2 < p[0] < 8 and 2 < p[1] < 8 for p in t)], [], "y", 0.85),
     ("unite", BLOCK + POST, [], "y", 0.55),
     ("slit", None, [], "z", 0.6),
     ("small", BLOCK + box((11, 5, 2), (11.03, 5.03, 2.03)), [], "y", 0.6),
