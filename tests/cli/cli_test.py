@@ -133,7 +133,7 @@ class Mesh(CliTest):
         self.assertEqual(data["verdict"]["quality"]["inverted"], 0)
         self.assertGreater(data["peak_memory_bytes"], 1 << 20)
         self.assertEqual({s["name"] for s in data["stages"]},
-                         {"prepare", "features", "surface tree", "sizing", "complete", "dual", "fit", "judge"})
+                         {"prepare", "features", "surface tree", "sizing", "complete", "dual", "fit", "judge", "bound"})
         self.assertEqual(sum(data["sizing"]["cells_per_level"]), data["sizing"]["cells"])
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         self.run_binary("check", out, self.cube)

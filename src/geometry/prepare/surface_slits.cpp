@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "hexwright/geometry/surface_topology.h"
+
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "geometry/tree/triangle_math.h"
@@ -54,10 +56,12 @@ double area_on_each_other(const Corners& a, const Corners& b) {
   return area > 4 * kContact * longest ? area : 0;
 }
 
-/// Triangles that others of the surface lie on wholly: those of one in part are no slit's.
+/// Triangles that others of the same component lie on wholly: a gap between bodies is no slit, and
+/// what is covered in part neither.
 std::vector<char> find_walls(const TriMesh& mesh) {
+  const IdVector<TriId, int> component = compute_components(mesh);
   const std::vector<TriPair> pairs = find_near_pairs(mesh, kContact, [&](TriId a, TriId b) {
-    return area_on_each_other(mesh.corners(a), mesh.corners(b)) > 0;
+    return component[a] == component[b] && area_on_each_other(mesh.corners(a), mesh.corners(b)) > 0;
   });
   IdVector<TriId, double> covered(mesh.num_tris(), 0);
   for (const auto& [a, b] : pairs) {
