@@ -94,7 +94,8 @@ class Freer {
       Vec3 best = from;
       double least = now.lack - kProgress;
       for (int i = 0; i < 27; ++i) {
-        const Vec3 way{double(i % 3 - 1), double(i / 3 % 3 - 1), double(i / 9 - 1)};
+        const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+        const Vec3 way{double(x), double(y), double(z)};
         if (i == 13) continue;
         const Vec3 place = from + step * state_.size[v] / norm(way) * way;
         if (!is_allowed(v, place)) continue;
