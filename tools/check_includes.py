@@ -32,9 +32,11 @@ ROOMS = {
     "geometry": ["frame", "tree", "topology", "prepare", "features", "walls"],
     "dual": ["domain", "complex", "pillows"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
+    "quality": ["jacobian", "topology", "distance"],
     "io": ["text", "surface", "sets", "solver", "mesh", "grid"],
     "relax": ["kernel", "state", "passes", "joint"],
     "fit": ["carve", "curves", "sheets"],
+    "polycube": ["tets", "lattice", "map", "labels"],
     "pipeline": ["options", "loop", "report"],
 }
 # Heavy third parties stay out of public headers: users compile against ours alone.

@@ -6,17 +6,37 @@ import importlib
 import re
 import struct
 import zlib
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from ._mesh import HexMesh
-
 VTK_HEXAHEDRON = 12
 #: Position in VTK's order of each vertex of scikit-fem's hexahedron.
 SKFEM_ORDER = [0, 4, 3, 1, 7, 5, 2, 6]
+
+
+class Hexes(Protocol):
+    """What is converted: a hexwright.HexMesh, which calls these functions."""
+
+    layer: NDArray[np.int32] | None
+    _core: Any
+
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    @property
+    def hexes(self) -> NDArray[np.int32]: ...
+    @property
+    def regions(self) -> NDArray[np.int32]: ...
+    @property
+    def patches(self) -> Mapping[str, Any]: ...
+    @property
+    def curves(self) -> Mapping[str, NDArray[np.int32]]: ...
+    @property
+    def corners(self) -> NDArray[np.int32]: ...
+    def facets(self, name: str) -> Any: ...
+    def quality(self) -> NDArray[np.float64]: ...
 
 
 def need(package: str, extra: str) -> Any:
@@ -26,7 +46,7 @@ def need(package: str, extra: str) -> Any:
         raise ImportError(f"{error}; install it with: pip install 'hexwright[{extra}]'") from error
 
 
-def to_pyvista(mesh: HexMesh) -> Any:
+def to_pyvista(mesh: Hexes) -> Any:
     pyvista = need("pyvista", "pyvista")
     grid = pyvista.UnstructuredGrid({VTK_HEXAHEDRON: mesh.hexes.astype(np.int64)}, np.array(mesh.points))
     grid.cell_data["region"] = np.array(mesh.regions)
@@ -36,7 +56,7 @@ def to_pyvista(mesh: HexMesh) -> Any:
     return grid
 
 
-def to_meshio(mesh: HexMesh) -> Any:
+def to_meshio(mesh: Hexes) -> Any:
     meshio = need("meshio", "meshio")
     cells: list[tuple[str, NDArray[np.int32]]] = [("hexahedron", mesh.hexes)]
     names: list[str | None] = [None]
@@ -58,7 +78,7 @@ def to_meshio(mesh: HexMesh) -> Any:
     return meshio.Mesh(mesh.points, cells, cell_data=cell_data, cell_sets=sets)
 
 
-def to_skfem(mesh: HexMesh) -> Any:
+def to_skfem(mesh: Hexes) -> Any:
     skfem = need("skfem", "skfem")
     result = skfem.MeshHex(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.hexes[:, SKFEM_ORDER].T))
     facets = np.sort(result.facets, axis=0).T

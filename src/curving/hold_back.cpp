@@ -7,7 +7,7 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
-#include "quality/quadratic_jacobian.h"
+#include "quality/jacobian/quadratic_jacobian.h"
 
 namespace hexwright::curving {
 namespace {

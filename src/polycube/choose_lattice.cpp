@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "polycube/charts.h"
-#include "polycube/repair_map.h"
-#include "polycube/sample_map.h"
+#include "polycube/lattice/charts.h"
+#include "polycube/map/repair_map.h"
+#include "polycube/map/sample_map.h"
 
 namespace hexwright::polycube {
 namespace {

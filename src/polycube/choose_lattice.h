@@ -5,7 +5,7 @@
 #include "hexwright/dual/dual_mesh.h"
 #include "hexwright/polycube/polycube.h"
 
-#include "polycube/lattice.h"
+#include "polycube/lattice/lattice.h"
 
 namespace hexwright::polycube {
 

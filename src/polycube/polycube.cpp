@@ -13,15 +13,15 @@
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/surface_distance.h"
 
-#include "polycube/boundary_map.h"
 #include "polycube/choose_lattice.h"
-#include "polycube/lattice.h"
-#include "polycube/map_back.h"
-#include "polycube/refine_misses.h"
-#include "polycube/relax.h"
-#include "polycube/repair_map.h"
-#include "polycube/sample_map.h"
-#include "polycube/tet_locator.h"
+#include "polycube/lattice/lattice.h"
+#include "polycube/map/boundary_map.h"
+#include "polycube/map/map_back.h"
+#include "polycube/map/refine_misses.h"
+#include "polycube/map/relax.h"
+#include "polycube/map/repair_map.h"
+#include "polycube/map/sample_map.h"
+#include "polycube/tets/tet_locator.h"
 
 namespace hexwright {
 namespace {

@@ -11,9 +11,9 @@
 #include "hexwright/quality/hex_quality.h"
 
 #include "helpers.h"
-#include "polycube/tet_boundary.h"
 #include "polycube/tet_builders.h"
-#include "polycube/tet_locator.h"
+#include "polycube/tets/tet_boundary.h"
+#include "polycube/tets/tet_locator.h"
 
 namespace hexwright {
 namespace {

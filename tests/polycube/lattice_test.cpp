@@ -1,4 +1,4 @@
-#include "polycube/lattice.h"
+#include "polycube/lattice/lattice.h"
 
 #include <array>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "hexwright/base/error.h"
 
-#include "polycube/charts.h"
-#include "polycube/tet_boundary.h"
+#include "polycube/lattice/charts.h"
 #include "polycube/tet_builders.h"
-#include "polycube/tet_locator.h"
+#include "polycube/tets/tet_boundary.h"
+#include "polycube/tets/tet_locator.h"
 
 namespace hexwright::polycube {
 namespace {

@@ -17,12 +17,12 @@
 
 #include "geometry/random_soup.h"
 #include "helpers.h"
-#include "polycube/map_back.h"
-#include "polycube/merge_charts.h"
-#include "polycube/refine_misses.h"
-#include "polycube/sample_map.h"
+#include "polycube/lattice/merge_charts.h"
+#include "polycube/map/map_back.h"
+#include "polycube/map/refine_misses.h"
+#include "polycube/map/sample_map.h"
 #include "polycube/tet_builders.h"
-#include "polycube/unfold.h"
+#include "polycube/tets/unfold.h"
 
 namespace hexwright::polycube {
 namespace {

@@ -4,11 +4,11 @@
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/hex_quality.h"
 
-#include "polycube/repair_map.h"
-#include "polycube/tet_boundary.h"
+#include "polycube/map/repair_map.h"
 #include "polycube/tet_builders.h"
-#include "polycube/tet_locator.h"
-#include "polycube/unfold.h"
+#include "polycube/tets/tet_boundary.h"
+#include "polycube/tets/tet_locator.h"
+#include "polycube/tets/unfold.h"
 
 namespace hexwright::polycube {
 namespace {

@@ -8,9 +8,9 @@
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/surface_distance.h"
 
-#include "polycube/refine_misses.h"
-#include "polycube/sample_map.h"
-#include "polycube/surface_misses.h"
+#include "polycube/map/refine_misses.h"
+#include "polycube/map/sample_map.h"
+#include "polycube/map/surface_misses.h"
 #include "polycube/tet_builders.h"
 
 namespace hexwright::polycube {

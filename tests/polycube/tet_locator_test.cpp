@@ -1,5 +1,5 @@
 // The tet locator and the boundary of tet meshes against brute force.
-#include "polycube/tet_locator.h"
+#include "polycube/tets/tet_locator.h"
 
 #include <map>
 #include <numeric>
@@ -9,8 +9,8 @@
 #include "hexwright/base/error.h"
 
 #include "geometry/random_soup.h"
-#include "polycube/tet_boundary.h"
 #include "polycube/tet_builders.h"
+#include "polycube/tets/tet_boundary.h"
 
 namespace hexwright::polycube {
 namespace {

@@ -5,8 +5,8 @@
 #include "hexwright/quality/surface_distance.h"
 
 #include "helpers.h"
-#include "quality/patch_facets.h"
-#include "quality/triangle_samples.h"
+#include "quality/distance/patch_facets.h"
+#include "quality/distance/triangle_samples.h"
 #include "solids.h"
 
 namespace hexwright {

@@ -5,7 +5,7 @@
 #include "hexwright/base/parallel.h"
 
 #include "helpers.h"
-#include "quality/bezier_jacobian.h"
+#include "quality/jacobian/bezier_jacobian.h"
 
 namespace hexwright {
 namespace {

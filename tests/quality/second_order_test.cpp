@@ -5,7 +5,7 @@
 #include "hexwright/quality/judge.h"
 
 #include "helpers.h"
-#include "quality/quadratic_jacobian.h"
+#include "quality/jacobian/quadratic_jacobian.h"
 
 namespace hexwright {
 namespace {

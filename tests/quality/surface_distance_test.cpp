@@ -7,7 +7,7 @@
 
 #include "geometry/tree/point_tree.h"
 #include "helpers.h"
-#include "quality/triangle_samples.h"
+#include "quality/distance/triangle_samples.h"
 #include "solids.h"
 
 namespace hexwright {

@@ -10,7 +10,7 @@
 #include "hexwright/mesh/hex_shape.h"
 #include "hexwright/quality/hex_quality.h"
 
-#include "quality/bezier_jacobian.h"
+#include "quality/jacobian/bezier_jacobian.h"
 #include "relax/passes/finish.h"
 #include "relax/state/proof.h"
 
