@@ -7,6 +7,8 @@
 #include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright::curving {
 namespace {
 
@@ -42,8 +44,7 @@ class Labeler {
  private:
   void add_quad(const LabeledQuad& quad) {
     const auto& v = quad.verts;
-    Vec3 normal = normalized(cross(mesh_.positions[v[2]] - mesh_.positions[v[0]],
-                                   mesh_.positions[v[3]] - mesh_.positions[v[1]]));
+    Vec3 normal = quad_normal(mesh_.positions, v);
     if (side_ == Side::Outside) normal = -normal;
     for (std::size_t k = 0; k < 4; ++k) {
       const EdgeId e = table_.find(v[k], v[(k + 1) % 4]);

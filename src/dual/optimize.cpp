@@ -1,19 +1,17 @@
-// Three passes, each on the vertices of hexes that need it and with a few sweeps at a time:
-//   untangle  regularised energy around inverted hexes;
-//   improve   barrier energies of growing power, so that the worst corners dominate at the end;
-//   raise     weighted energies that raise the mean scaled Jacobian and hold up the least.
+// Four rows, each on the vertices of hexes that need it and with a few sweeps at a time:
+//   kUntangle  regularised energy around inverted hexes;
+//   kSpread    a barrier energy almost everywhere, as a start;
+//   kWorst     one of higher power, so that the worst corners dominate, around hexes that are poor;
+//   kMean      weighted energies that raise the mean scaled Jacobian and hold up the least.
 // Based on: Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov, "Foldover-free maps in 50 lines
 // of code", ACM TOG 40(4), 2021 (regularised determinants, decreased until nothing is inverted);
 // Hunter, Lange, "A tutorial on MM algorithms", The American Statistician 58(1), 2004 (the
 // weights). Differs: solved vertex by vertex with Newton steps, and only around bad hexes.
 #include "dual/optimize.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "hexwright/base/parallel.h"
-
-#include "dual/quality_of_hex.h"
+#include "relax/passes/mean_weights.h"
 #include "relax/passes/pass.h"
 
 namespace hexwright::dual {
@@ -23,22 +21,11 @@ using namespace relax;
 namespace {
 
 constexpr double kPositive = 1e-3;  // below: inverted, or flat but for rounding
-constexpr int kMeanPower = 8;       // the larger, the closer to the least corner
+constexpr int kMeanPower = 4;       // the larger, the closer to the least corner
 
-// Raises the sum over hexes of a soft minimum of their scaled Jacobians: s = T^(-1/p), with T the
-// sum of s_c^(-p) over the hex's corners. -s is concave in T, so its tangent lies above it: a
-// step that lowers the sum of T weighted by the tangents' slopes (s^(p+1), up to a constant)
-// raises the sum of s. Poor hexes keep the weight of a hex at kKnee: from there down the plain
-// sum of T is what falls, which holds up the least.
 IdVector<HexId, double> weigh(const HexMesh& mesh) {
   constexpr double kKnee = 0.6;
-  IdVector<HexId, double> weight(mesh.num_hexes());
-  parallel_for(mesh.num_hexes(), [&](std::size_t h) {
-    const double s = std::max(kKnee, soft_scaled_jacobian(mesh, HexId(h)));
-    const double s2 = s * s, s4 = s2 * s2;
-    weight[HexId(h)] = s4 * s4 * s;  // s^(p+1)
-  });
-  return weight;
+  return mean_weights(mesh, kMeanPower, kKnee);
 }
 
 /// Half an edge at most, and what moves less than a fiftieth of that is left alone.
@@ -67,7 +54,7 @@ constexpr Pass kWorst = {.limit = 0.4,
                          .again = Again::Moving};
 constexpr Pass kMean = {.limit = 0.95,
                         .max_rounds = 2,
-                        .sweep = sweep_with({1, kMeanPower / 2, 0}),
+                        .sweep = sweep_with({1, kMeanPower, 0}),
                         .sweeps = 4,
                         .again = Again::Moving,
                         .weigh = weigh};

@@ -7,21 +7,6 @@
 
 namespace hexwright::dual {
 
-// The power mean with exponent -8, smooth where the least is not: within 8^(1/8) = 1.3 of it. See
-// docs/algorithms/dual.md, "Raising the mean". Square roots only: pow() differs between platforms.
-double soft_scaled_jacobian(const HexMesh& mesh, HexId h) {
-  const auto p = mesh.corners(h);
-  double mean = 0;  // of s^-8
-  for (int lv = 0; lv < 8; ++lv) {
-    const CornerShape c = corner_shape(p, lv);
-    if (c.det <= 0) return 0;
-    const double inverse_sq = c.lengths_sq / (c.det * c.det);
-    const double inverse_4th = inverse_sq * inverse_sq;
-    mean += 0.125 * inverse_4th * inverse_4th;
-  }
-  return 1 / std::sqrt(std::sqrt(std::sqrt(mean)));
-}
-
 MeshQuality measure_quality(const HexMesh& mesh) {
   const auto map = [&](std::size_t begin, std::size_t end) {
     MeshQuality part;

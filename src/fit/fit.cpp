@@ -97,11 +97,20 @@ struct Attempt {
 
 }  // namespace
 
+// What the lift is measured by, and gone back to where it leads no higher.
+struct Unlifted {
+  IdVector<VertId, Vec3> positions;
+  IdVector<VertId, double> arc, offset;
+  double least = 0;  // scaled Jacobian
+  std::vector<HexId> unproven;
+};
+
 /// What the last passes start from: everything has arrived, nothing has been given away yet.
 struct FitMemory {
   Attempt attempt;
   FeatureGraph features;
   FitReport report;
+  Unlifted unlifted = {};
 };
 
 namespace {
@@ -161,7 +170,11 @@ class Fitter {
     std::shared_ptr<FitMemory> memory;
     if (is_lifting()) memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
-    const bool is_poor = is_lifting() && least_quality(result) < options_.lift_goal;
+    const double least = least_quality(result);
+    const bool is_poor = is_lifting() && least < options_.lift_goal;
+    if (is_poor)
+      memory->unlifted = {result.state.mesh.positions, result.state.arc, result.state.offset, least,
+                          report_.unproven};
     FitResult done = conclude(std::move(result));
     if (is_poor) done.memory = std::move(memory);
     return done;
@@ -172,6 +185,7 @@ class Fitter {
     features_ = memory.features;
     report_ = memory.report;
     finish_lifted(result);
+    go_back_if_lower(result, memory.unlifted);
     return conclude(std::move(result));
   }
 
@@ -203,6 +217,17 @@ class Fitter {
     clock_.run("smooth", 0.977, [&] { smooth(a, goal); });
     clock_.run("lift jointly", 0.98, [&] { lift_jointly(a, true); });
     clock_.run("prove", 0.985, [&] { prove(a); });
+  }
+
+  // The lift starts before the last passes of a fit without it, some of which may have gained more.
+  void go_back_if_lower(Attempt& a, const Unlifted& unlifted) {
+    if (least_quality(a) >= unlifted.least) return;
+    if (report_.unproven.size() < unlifted.unproven.size()) return;
+    a.state.mesh.positions = unlifted.positions;
+    a.state.arc = unlifted.arc;
+    a.state.offset = unlifted.offset;
+    report_.unproven = unlifted.unproven;
+    update_targets(a.state, target(a), 0);
   }
 
   void prove(Attempt& a) {

@@ -13,6 +13,7 @@
 #include "layers/displace.h"
 #include "layers/heights.h"
 #include "layers/hold.h"
+#include "mesh/quad.h"
 #include "relax/passes/finish.h"
 #include "relax/passes/sweep.h"
 #include "relax/state/targets.h"
@@ -209,10 +210,7 @@ class Grower {
   }
 
   void polish_once(const IdVector<HexId, double>& quality, int power) {
-    std::vector<char> region(state_.num_verts(), 0);
-    for (HexId h : quality.ids())
-      if (quality[h] < kLow)
-        for (VertId v : state_.mesh.hexes[h]) region[v.index()] = 1;
+    std::vector<char> region = verts_of_hexes(state_, [&](HexId h) { return quality[h] < kLow; });
     grow_vert_set(state_, region, 1);
     for (std::size_t i = 0; i < region.size(); ++i) region[i] &= is_sheet_[i] | is_inside_[i];
     update_sliding();

@@ -17,6 +17,7 @@ constexpr double kOnePlane = 0.99;  // cosine, of the faces of a box around
 struct BoundaryVert {
   Vec3 normal;
   bool is_flat = true;
+  bool is_labelled = false;   // by a quad
   std::vector<Vec3> planes;   // of quads without a label
   std::vector<VertId> along;  // labelled edges
 };
@@ -59,7 +60,10 @@ class Holder {
     for (const LabeledQuad& quad : state_.mesh.labels.quads) labelled.push_back(sorted(quad.verts));
     std::sort(labelled.begin(), labelled.end());
     for (const auto& quad : state_.quads) {
-      if (std::binary_search(labelled.begin(), labelled.end(), sorted(quad))) continue;
+      if (std::binary_search(labelled.begin(), labelled.end(), sorted(quad))) {
+        for (VertId v : quad) verts_[v].is_labelled = true;
+        continue;
+      }
       const Vec3 n = quad_normal(state_.mesh.positions, quad);
       for (VertId v : quad) {
         auto& planes = verts_[v].planes;
@@ -84,9 +88,7 @@ class Holder {
   void hold(VertId v, const BoundaryVert& vert) {
     if (!vert.along.empty()) {
       hold_on_edge(v, vert.along);
-    } else if (vert.planes.size() > 2) {
-      fix(v);
-    } else if (vert.planes.size() == 2) {
+    } else if (vert.planes.size() == 2 && !vert.is_labelled) {
       move_along(v, MoveIn::Line, normalized(cross(vert.planes[0], vert.planes[1])));
     } else if (!vert.planes.empty() && !vert.is_flat) {
       fix(v);  // a side of the domain meets a patch: it would be drawn off one of them

@@ -13,6 +13,7 @@
 #include "layers/grow.h"
 #include "layers/heights.h"
 #include "layers/split.h"
+#include "mesh/quad.h"
 
 namespace hexwright {
 namespace {

@@ -10,6 +10,7 @@
 #include "hexwright/io/set_table.h"
 
 #include "base/disjoint_sets.h"
+#include "mesh/quad.h"
 
 namespace hexwright::layers {
 namespace {

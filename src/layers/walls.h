@@ -7,7 +7,6 @@
 #include "hexwright/layers/layers.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
-#include "mesh/quad.h"
 #include "relax/kernel/boundary_quads.h"
 
 namespace hexwright::layers {
@@ -64,10 +63,5 @@ std::vector<LeftOut> leave_out_walls(const HexMesh& mesh, const WallPatches& pat
                                      Skin& skin);
 /// Takes out the walls that hold any of these vertices.
 void leave_out_at(const std::vector<VertId>& verts, Skin& skin);
-
-/// Vertices of a hex's face as a quad whose normal points out of the region.
-inline Vec3 quad_normal(const IdVector<VertId, Vec3>& p, const std::array<VertId, 4>& q) {
-  return normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
-}
 
 }  // namespace hexwright::layers

@@ -22,4 +22,10 @@ double quad_area(const Positions& positions, const std::array<VertId, 4>& q) {
   return 0.5 * norm(cross(positions[q[2]] - positions[q[0]], positions[q[3]] - positions[q[1]]));
 }
 
+/// Of length 1, as the quad goes round: the direction in which its projection is largest.
+template <class Positions>
+Vec3 quad_normal(const Positions& positions, const std::array<VertId, 4>& q) {
+  return normalized(cross(positions[q[2]] - positions[q[0]], positions[q[3]] - positions[q[1]]));
+}
+
 }  // namespace hexwright

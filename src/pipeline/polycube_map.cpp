@@ -8,6 +8,8 @@
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/polycube/deform.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright {
 namespace {
 
@@ -43,11 +45,6 @@ MeshOptions mesh_options(const PolycubeMapOptions& options, double tolerance) {
 }
 
 using Quad = std::array<VertId, 4>;
-
-Quad sorted(Quad quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
-}
 
 /// Labels of the facets that cut_hexes() makes of labelled quads: each has two neighbouring corners
 /// of the quad, and a centre that is a new vertex.

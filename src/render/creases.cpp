@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/quad.h"
+
 namespace hexwright {
 namespace {
 
@@ -34,9 +36,7 @@ std::vector<Side> list_sides(const HexMesh& mesh, const std::vector<VisibleFace>
 }
 
 Vec3 normal_of(const HexMesh& mesh, const HexFace& face) {
-  const auto v = face_verts(mesh, face);
-  return normalized(cross(mesh.positions[v[2]] - mesh.positions[v[0]],
-                          mesh.positions[v[3]] - mesh.positions[v[1]]));
+  return quad_normal(mesh.positions, face_verts(mesh, face));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "hexwright/cad/read_cad.h"
 
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 
 #include "geometry/tree/triangle_contacts.h"
 #include "helpers.h"
+#include "io/temp_folder.h"
 #include "mesh/tri_measures.h"
 
 namespace hexwright {
@@ -38,25 +38,6 @@ std::string refusal(const fs::path& path) {
   return "";
 }
 
-/// A file in the folder of temporary ones that goes with the test.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& content)
-      : path_(fs::temp_directory_path() / (std::to_string(::getpid()) + name)) {
-    std::ofstream(path_, std::ios::binary) << content;
-  }
-  ~TemporaryFile() { fs::remove(path_); }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 std::size_t count(const CadModel& model, CadEdgeClass kind) {
   return static_cast<std::size_t>(std::ranges::count(model.edges, kind, &CadEdge::kind));
 }
@@ -74,8 +55,9 @@ TEST(ReadCad, KnowsFilesByNameAndByContent) {
   EXPECT_TRUE(is_cad_file("part.STP"));
   EXPECT_TRUE(is_cad_file("part.iges"));
   EXPECT_FALSE(is_cad_file("part.stl"));
-  const TemporaryFile renamed("renamed.txt", "ISO-10303-21;\nHEADER;");
-  EXPECT_TRUE(is_cad_file(renamed.path()));
+  const test::TempFolder folder;
+  const fs::path renamed = folder.write("renamed.txt", "ISO-10303-21;\nHEADER;");
+  EXPECT_TRUE(is_cad_file(renamed));
 }
 
 TEST(ReadCad, GivesNamesFacesAndColours) {
@@ -184,30 +166,32 @@ TEST(ReadCad, RefusesBadFilesWithAReasonAndARemedy) {
   NEEDS_CAD();
   EXPECT_NE(refusal(sample("open_shell.step")).find("do not close: 4 edges"), std::string::npos);
   EXPECT_NE(refusal("no_such_file.step").find("no such file"), std::string::npos);
-  const std::string whole = content_of(sample("plate_hole.step"));
-  const TemporaryFile cut("cut.step", whole.substr(0, whole.size() / 2));
-  EXPECT_NE(refusal(cut.path()).find("ends before its last line"), std::string::npos);
-  const TemporaryFile empty("empty.step", "");
-  EXPECT_NE(refusal(empty.path()).find("empty"), std::string::npos);
-  const TemporaryFile text("text.step", "hello");
-  EXPECT_NE(refusal(text.path()).find("no CAD file"), std::string::npos);
-  const TemporaryFile bare("bare.step",
-                           "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
-  EXPECT_NE(refusal(bare.path()), "");
+  const std::string whole = test::slurp(sample("plate_hole.step"));
+  const test::TempFolder folder;
+  const fs::path cut = folder.write("cut.step", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(refusal(cut).find("ends before its last line"), std::string::npos);
+  const fs::path empty = folder.write("empty.step", "");
+  EXPECT_NE(refusal(empty).find("empty"), std::string::npos);
+  const fs::path text = folder.write("text.step", "hello");
+  EXPECT_NE(refusal(text).find("no CAD file"), std::string::npos);
+  const fs::path bare = folder.write(
+      "bare.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
+  EXPECT_NE(refusal(bare), "");
 }
 
 /// What OpenCASCADE makes of damage is its affair; it must come back, with a model or an Error.
 TEST(ReadCad, SurvivesDamagedContent) {
   NEEDS_CAD();
-  const std::string whole = content_of(sample("flange.step"));
+  const test::TempFolder folder;
+  const std::string whole = test::slurp(sample("flange.step"));
   for (std::size_t k = 0; k < 40; ++k) {
     std::string damaged = whole;
     const std::size_t at = 1500 + k * (whole.size() - 2000) / 40;
     for (std::size_t i = at; i < at + 3; ++i)
       if (damaged[i] >= '0' && damaged[i] <= '9')
         damaged[i] = static_cast<char>('0' + (k + i) % 10);
-    const TemporaryFile file("damaged.step", damaged);
-    EXPECT_NO_FATAL_FAILURE(refusal(file.path()));
+    const fs::path file = folder.write("damaged.step", damaged);
+    EXPECT_NO_FATAL_FAILURE(refusal(file));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -178,6 +179,9 @@ TEST(Lattice, RefusesWhatHasNoRoom) {
   EXPECT_THROW(fit_lattice(test::unit_cube_surface(), 1e-9, 0.02), Error);
   EXPECT_THROW(fill_box({{0, 0, 0}, {1, 1, 0}}, 1, 4), Error);
   EXPECT_THROW(fill_box({{0, 0, 0}, {1e6, 1, 1}}, 1, 4), Error);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(fill_box({{0, 0, 0}, {1, 1, 1}}, infinity, 4), Error);
+  EXPECT_THROW(fill_box({{0, 0, 0}, {infinity, infinity, infinity}}, 1, 4), Error);
 }
 
 }  // namespace

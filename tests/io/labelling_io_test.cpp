@@ -7,6 +7,8 @@
 
 #include "hexwright/base/error.h"
 
+#include "io/temp_folder.h"
+
 namespace hexwright {
 namespace {
 
@@ -25,9 +27,9 @@ class LabellingIo : public ::testing::Test {
     }
     return "";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
 
-  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / "labels.txt";
+  test::TempFolder folder_;
+  std::filesystem::path path_ = folder_ / "labels.txt";
 };
 
 TEST_F(LabellingIo, ReadsLinesBlanksAndComments) {

@@ -4,6 +4,8 @@
 #include "hexwright/base/error.h"
 #include "hexwright/io/mesh_io.h"
 
+#include "io/temp_folder.h"
+
 namespace hexwright {
 namespace {
 
@@ -14,13 +16,13 @@ TEST(TetWriter, WhatIsWrittenIsReadBackToTheBit) {
     mesh.positions.push_back(p);
   mesh.tets.push_back({VertId(0), VertId(1), VertId(2), VertId(3)});
   mesh.tets.push_back({VertId(1), VertId(2), VertId(3), VertId(4)});
+  const test::TempFolder folder;
   for (const char* name : {"tets.mesh", "tets.vtk"}) {
-    const auto path = std::filesystem::path(::testing::TempDir()) / name;
+    const auto path = folder / name;
     write_tet_mesh(path, mesh);
     const TetMesh back = read_tet_mesh(path);
     EXPECT_EQ(back.positions, mesh.positions) << name;
     EXPECT_EQ(back.tets, mesh.tets) << name;
-    std::filesystem::remove(path);
   }
 }
 

@@ -1,7 +1,6 @@
 // Sizes that users ask for, in the finished mesh.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "hexwright/pipeline/size_plan.h"
 
 #include "helpers.h"
+#include "io/temp_folder.h"
 #include "solids.h"
 
 namespace hexwright {
@@ -213,9 +213,10 @@ TEST(SizeWishes, WrongRulesAreRefusedWithARightForm) {
 }
 
 TEST(SizeWishes, AFileHoldsMany) {
-  const std::string path = testing::TempDir() + "sizes_test.json";
-  std::ofstream(path) << R"({"size": 2, "max-size": "40%", "growth": 1.3, "across": 2,
-    "refine": ["box:0,0,0,1,1,1=0.5", "patch:wall.*=0.2,1"], "margin": "5L"})";
+  const test::TempFolder folder;
+  const std::string path = folder / "sizes.json";
+  folder.write("sizes.json", R"({"size": 2, "max-size": "40%", "growth": 1.3, "across": 2,
+    "refine": ["box:0,0,0,1,1,1=0.5", "patch:wall.*=0.2,1"], "margin": "5L"})");
   SizeWishes wishes;
   read_size_wishes(path, wishes);
   EXPECT_DOUBLE_EQ(wishes.size.value, 2);
@@ -226,7 +227,7 @@ TEST(SizeWishes, AFileHoldsMany) {
   EXPECT_EQ(wishes.rules[1].pattern, "wall.*");
   EXPECT_TRUE(wishes.margin && (*wishes.margin)[3].is_multiple);
   for (const char* text : {"", "[]", R"({"sise": 1})", R"({"size": -1})", R"({"refine": "x"})"}) {
-    std::ofstream(path) << text;
+    folder.write("sizes.json", text);
     try {
       read_size_wishes(path, wishes);
       ADD_FAILURE() << text;

@@ -200,14 +200,58 @@ TEST_F(FinishPasses, FreeUnprovenLeavesTheSurfaceAsFarAsItIsAllowed) {
   for (const double slack : {0.001, 0.7}) {
     FitState state(mesh);
     update_targets(state, {surface, nullptr}, 0);
-    free_unproven(state, unproven, slack, 0.1);
+    const double floor = 0.1;
     const bool is_free = slack > 0.1;
+    EXPECT_EQ(free_unproven(state, unproven, slack, {&floor, 1}).empty(), is_free) << slack;
     EXPECT_EQ(find_unproven(state.mesh).empty(), is_free) << slack;
     EXPECT_EQ(state.mesh.positions == mesh.positions, !is_free) << slack;
     for (VertId v : mesh.positions.ids())
       EXPECT_LE(distance(state.mesh.positions[v], mesh.positions[v]), slack + 1e-12);
     EXPECT_GE(scaled_jacobian(state.mesh.corners(HexId(0))),
               std::min(0.1, scaled_jacobian(mesh.corners(HexId(0)))));
+  }
+}
+
+/// What a vertex is off its target already is not free a second time, whichever way it goes.
+TEST_F(FinishPasses, FreeUnprovenCountsWhatWasOffTheSurfaceBefore) {
+  const HexMesh mesh = hex_on_a_crease();
+  const SurfaceTree surface(test::surface_of(mesh));
+  constexpr double kSlack = 0.7;
+  std::size_t num_moved = 0;
+  for (const double off : {-0.4, -0.2, 0.2, 0.4}) {
+    FitState state(mesh);
+    update_targets(state, {surface, nullptr}, 0);
+    for (VertId v : state.kind.ids()) state.target[v] += off * state.direction[v];
+    const double floor = 0.1;
+    free_unproven(state, find_unproven(mesh), kSlack, {&floor, 1});
+    num_moved += state.mesh.positions != mesh.positions;
+    for (VertId v : mesh.positions.ids()) {
+      EXPECT_LE(distance(state.mesh.positions[v], mesh.positions[v]),
+                kSlack - std::abs(off) + 1e-12);
+      EXPECT_LE(state.residual(v) * state.size[v], kSlack + 1e-12);
+    }
+  }
+  EXPECT_GT(num_moved, 0u);
+}
+
+TEST_F(FinishPasses, MendUnprovenLeavesCornersWhereNothingElseHelps) {
+  const HexMesh mesh = hex_on_a_crease();
+  const TriMesh boundary = test::surface_of(mesh);
+  const SurfaceTree surface(boundary);
+  const FeatureGraph features;
+  const FitTarget corners = {surface, &features};
+  for (const double slack : {0.0, 0.7}) {
+    FitState state(mesh);
+    for (VertId v : state.kind.ids()) {
+      state.kind[v] = VertKind::Corner;
+      const auto& points = boundary.positions.raw();
+      const auto at = std::find(points.begin(), points.end(), mesh.positions[v]);
+      state.feature_point[v] = VertId(static_cast<std::size_t>(at - points.begin()));
+    }
+    update_targets(state, corners, 0);
+    const bool is_free = slack > 0;
+    EXPECT_EQ(mend_unproven(state, corners, slack, {}).empty(), is_free) << slack;
+    EXPECT_EQ(find_unproven(state.mesh).empty(), is_free) << slack;
   }
 }
 

@@ -110,10 +110,14 @@ TEST(Improve, SlidesTheBoundaryOnTheSurface) {
   for (Vec3& p : moved_sphere.positions) p = move(p);
   HexMesh moved = before;
   for (Vec3& p : moved.positions) p = move(p);
+  const VertId held = face_verts(moved, compute_hex_neighbors(moved).boundary.front())[0];
+  moved.labels.corners = {held};
+  const Vec3 held_at = moved.positions[held];
   const Target moved_target = make_slide_target(moved_sphere);
   options.slide_on = &moved_target;
   const ImproveReport moved_report = improve(moved, options, {});
   EXPECT_GT(moved_report.min_after, report.min_before + 0.01);
+  EXPECT_EQ(moved.positions[held], held_at);  // to the bit: it did not go to the frame and back
   const SurfaceTree moved_tree(moved_sphere);
   for (const HexFace& face : compute_hex_neighbors(moved).boundary)
     for (VertId v : face_verts(moved, face)) EXPECT_LT(moved_tree.distance(moved.positions[v]), 2);

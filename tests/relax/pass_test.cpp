@@ -75,10 +75,10 @@ TEST(Pass, VerticesStayInTheirPlaneOrLine) {
     run(kMend, mesh.body, {});
     const Vec3 way = mesh.body.mesh.positions[v] - mesh.before[v];
     EXPECT_GT(norm(way), 0.1);
-    if (move == MoveIn::Plane)
-      EXPECT_EQ(way.z, 0);
-    else
+    EXPECT_EQ(way.z, 0);
+    if (move == MoveIn::Line) {
       EXPECT_EQ(way.y, 0);
+    }
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Pass, HexesCountByTheirWeights) {
   run(pass, first.body, {});
   EXPECT_NE(first.body.mesh.positions, equal.body.mesh.positions);
   EXPECT_GT(scaled_jacobian(first.body.mesh.corners(HexId(0))),
-            scaled_jacobian(equal.body.mesh.corners(HexId(0))) - 1e-12);
+            scaled_jacobian(equal.body.mesh.corners(HexId(0))) + 0.1);
 }
 
 // One column of hexes, an object each but for the outside at the end: every border once.

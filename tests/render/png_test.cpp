@@ -1,13 +1,11 @@
 // Reads back what write_png wrote, with an own reader of the format's parts that it uses.
-#include <fstream>
-#include <iterator>
-
 #include <zlib.h>
 
 #include "hexwright/base/error.h"
 #include "hexwright/render/picture.h"
 
 #include "helpers.h"
+#include "io/temp_folder.h"
 
 namespace hexwright {
 namespace {
@@ -16,11 +14,6 @@ std::uint32_t read_u32(const std::string& s, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<std::uint8_t>(s[at + k]);
   return value;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // Contents of the chunks of a type; every checksum is compared.
@@ -39,15 +32,15 @@ std::string chunk_data(const std::string& png, const std::string& type) {
 
 class PngTest : public ::testing::Test {
  protected:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "hexwright_png_test.png";
-  ~PngTest() override { std::filesystem::remove(path_); }
+  test::TempFolder folder_;
+  std::filesystem::path path_ = folder_ / "image.png";
 };
 
 TEST_F(PngTest, HoldsTheImage) {
   Image image{5, 3, {}};
   for (int i = 0; i < 45; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 37));
   write_png(path_, image);
-  const std::string png = read_file(path_);
+  const std::string png = test::slurp(path_);
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
   const std::string header = chunk_data(png, "IHDR");
   EXPECT_EQ(read_u32(header, 0), 5u);

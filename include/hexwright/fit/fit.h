@@ -105,7 +105,8 @@ FitResult fit(const HexMesh& background, const TriMesh& surface, const TargetOpt
 /// where they belong ...
 FitResult fit_unlifted(const HexMesh& background, const Target& target, const FitOptions& options,
                        const Context& context);
-/// ... and leave it within the tolerance where that raises a least scaled Jacobian below the goal.
+/// ... and leave it within the tolerance where that raises a least scaled Jacobian below the goal;
+/// the first step's mesh where it does not.
 /// Requires a memory, of a fit to the same target with the same options.
 FitResult lift_fit(const FitMemory& memory, const Target& target, const FitOptions& options,
                    const Context& context);

@@ -1,4 +1,5 @@
-// What an object fills, as grids ask for it.
+// What an object fills, as grids ask for it: even_levels asks an Occupancy, not a surface, so that
+// it serves grids of objects that have none.
 #pragma once
 
 #include <functional>

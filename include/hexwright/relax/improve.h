@@ -25,7 +25,8 @@ struct ImproveReport {
   bool worst_is_fixed = false;  ///< all vertices of the worst corner are held by the fixed boundary
 };
 
-/// A surface of any size to slide on: in unit coordinates, with nothing cleaned or turned.
+/// A surface of any size to slide on: in unit coordinates, with nothing cleaned or turned. Holds
+/// its frame and tree, which is all that improve() asks for; features and topology are not derived.
 Target make_slide_target(const TriMesh& surface);
 
 /// Starts from any mesh; inverted elements are untangled first where that is possible.

@@ -2,6 +2,8 @@
 
 #include "hexwright/fit/carve.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright::fitting {
 
 using namespace relax;
@@ -36,10 +38,9 @@ void hold_in_plane(FitState& state, VertId v, const Vec3& normal) {
 }
 
 void hold_outer_boundary(FitState& state, const std::vector<HexFace>& faces) {
-  const auto& p = state.mesh.positions;
   for (const HexFace& face : faces) {
     const auto quad = face_verts(state.mesh, face);
-    const Vec3 normal = normalized(cross(p[quad[2]] - p[quad[0]], p[quad[3]] - p[quad[1]]));
+    const Vec3 normal = quad_normal(state.mesh.positions, quad);
     for (VertId v : quad) hold_in_plane(state, v, normal);
   }
 }

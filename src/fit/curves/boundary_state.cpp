@@ -6,6 +6,8 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright::fitting {
 
 using namespace relax;
@@ -108,7 +110,7 @@ void BoundaryState::rebuild(const FitState& state, const std::vector<LabeledEdge
   std::sort(labels.begin(), labels.end(), less);
   quad_to_region.assign(state.quads.size(), RegionId{});
   for (QuadId q : quad_to_region.ids()) {
-    const QuadLabel wanted{sorted_verts(state.quads[q.index()]), {}};
+    const QuadLabel wanted{sorted(state.quads[q.index()]), {}};
     const auto it = std::lower_bound(labels.begin(), labels.end(), wanted, less);
     if (it != labels.end() && it->verts == wanted.verts) quad_to_region[q] = it->region;
   }
@@ -125,11 +127,6 @@ std::optional<Issue> BoundaryState::find_problem(const FitState& state) const {
     }
   if (auto issue = find_region_problem(*this)) return issue;
   return find_curve_problem(state, *this);
-}
-
-std::array<VertId, 4> sorted_verts(std::array<VertId, 4> quad) {
-  std::sort(quad.begin(), quad.end());
-  return quad;
 }
 
 AttachedFeatures attach_features(FitState& state, const SurfaceTree& tree,

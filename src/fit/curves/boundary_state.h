@@ -20,7 +20,6 @@ struct QuadLabel {
   std::array<VertId, 4> verts;  ///< ascending
   RegionId region;
 };
-std::array<VertId, 4> sorted_verts(std::array<VertId, 4> quad);
 
 struct BoundaryState {
   BoundaryGraph graph;                              ///< of FitState::quads

@@ -10,6 +10,7 @@
 #include "fit/sheets/groups.h"
 #include "fit/sheets/pad.h"
 #include "fit/sheets/pad_needs.h"
+#include "mesh/quad.h"
 #include "relax/passes/finish.h"
 #include "relax/passes/sweep.h"
 #include "relax/state/targets.h"
@@ -48,8 +49,7 @@ void transfer_features(const FitState& scaffold, const BoundaryState& scaffold_b
   boundary.region_to_patch = scaffold_boundary.region_to_patch;
   std::vector<QuadLabel> labels;
   for (QuadId q : scaffold_boundary.quad_to_region.ids())
-    labels.push_back(
-        {sorted_verts(scaffold.quads[q.index()]), scaffold_boundary.quad_to_region[q]});
+    labels.push_back({sorted(scaffold.quads[q.index()]), scaffold_boundary.quad_to_region[q]});
   boundary.rebuild(state, scaffold_boundary.marked_edges(), std::move(labels));
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "relax/passes/finish.h"
 #include "relax/passes/pass.h"
 #include "relax/state/targets.h"
 
@@ -29,14 +28,11 @@ std::size_t count(const std::vector<char>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
 }
 
-void run_locally(FitState& state, const std::vector<char>& region, const FitTarget& target,
-                 const ShapeEnergy& shape, const std::vector<double>& weights) {
-  const LocalSweep local(state, region);
-  for (double weight : weights) {
-    update_targets(state, target, 0, region);
-    mark_boundary_dirty(state, region);
-    for (int s = 0; s < 2; ++s) local.run_dirty(state, {shape, weight, 0.01});
-  }
+Pass approach_with(const ShapeEnergy& shape, const std::vector<double>& weights) {
+  return {.sweep = {.shape = shape, .tolerance = 0.01},
+          .weights = weights,
+          .sweeps = 2,
+          .again = Again::Dirty};
 }
 
 }  // namespace
@@ -56,9 +52,9 @@ SqueezedReport pad_failed_quads(FitState& state, BoundaryState& boundary, const 
   std::vector<char> region(tried.num_verts(), 0);
   for (std::size_t v = state.num_verts(); v < region.size(); ++v) region[v] = 1;
   grow_vert_set(tried, region, options.rings);
-  run_locally(tried, region, target, {0, 1, 0}, geometric_weights(3, 300, 5));
-  context.check_cancelled();
-  run_locally(tried, region, target, {0.9, 1, 0}, geometric_weights(300, 1e5, 5));
+  const auto light = geometric_weights(3, 300, 5), heavy = geometric_weights(300, 1e5, 5);
+  run_on(region, approach_with({0, 1, 0}, light), tried, target, context);
+  run_on(region, approach_with({0.9, 1, 0}, heavy), tried, target, context);
   relax::run(kRefit, tried, target, context);
   update_targets(tried, target, 0);
   const auto most = options.worthwhile * static_cast<double>(num_failed);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mesh/quad.h"
+
 namespace hexwright::fitting {
 
 using namespace relax;
@@ -40,7 +42,7 @@ class Relabeling {
       auto verts = state_.quads[q.index()];
       if (follows(q))
         for (VertId& v : verts) v = moved(v);
-      labels.push_back({sorted_verts(verts), boundary_.quad_to_region[q]});
+      labels.push_back({sorted(verts), boundary_.quad_to_region[q]});
     }
     return labels;
   }
@@ -51,7 +53,7 @@ class Relabeling {
       const auto& edge = boundary_.graph.edge(BoundaryEdgeId(i));
       if (edge.num_quads != 2 || follows(edge.quads[0]) == follows(edge.quads[1])) continue;
       const QuadId follower = edge.quads[follows(edge.quads[0]) ? 0 : 1];
-      labels.push_back({sorted_verts({edge.a, edge.b, moved(edge.a), moved(edge.b)}),
+      labels.push_back({sorted({edge.a, edge.b, moved(edge.a), moved(edge.b)}),
                         boundary_.quad_to_region[follower]});
     }
   }

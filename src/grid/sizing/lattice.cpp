@@ -140,7 +140,7 @@ SizedDomain fit_lattice(const TriMesh& surface, double edge, double margin) {
 SizedDomain fill_box(const Box3& box, double edge, int least_roots) {
   const Vec3 extent = box.extent();
   const double shortest = std::min({extent.x, extent.y, extent.z});
-  if (!(shortest > 0) || !(edge > 0))
+  if (!(shortest > 0) || !(edge > 0) || !std::isfinite(norm(extent)) || !std::isfinite(edge))
     throw Error(ErrorCode::BadArgument, "a domain needs a box with room in it, and cells an edge");
   constexpr std::int64_t kMaxRoots = 1 << 20;
   SizedDomain result;

@@ -9,6 +9,7 @@
 #include "hexwright/quality/judge.h"
 
 #include "base/stage_log.h"
+#include "mesh/quad.h"
 #include "relax/kernel/vertex_newton.h"
 
 namespace hexwright {
@@ -70,7 +71,7 @@ class ExactMover {
   void add_quad(const LabeledQuad& quad, double sign) {
     const auto& p = mesh_.positions;
     const auto& q = quad.verts;
-    const Vec3 n = sign * normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
+    const Vec3 n = sign * quad_normal(p, q);
     for (std::size_t k = 0; k < 4; ++k) {
       const double length = distance(p[q[k]], p[q[(k + 1) % 4]]);
       for (const VertId v : {q[k], q[(k + 1) % 4]})

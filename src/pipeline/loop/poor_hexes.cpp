@@ -7,6 +7,7 @@
 #include "hexwright/mesh/hex_adjacency.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "mesh/quad.h"
 #include "pipeline/loop/demands.h"
 #include "pipeline/loop/hex_limit.h"
 
@@ -30,9 +31,7 @@ bool holds_wedge(const HexMesh& mesh, const HexNeighbors& neighbors, HexId h, do
   for (int f = 0; f < 6; ++f) {
     if (neighbors.neighbor[h][static_cast<std::size_t>(f)].is_valid()) continue;
     faces.push_back(face_verts(mesh, {h, f}));
-    const auto& q = faces.back();
-    const auto& p = mesh.positions;
-    normals.push_back(normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]])));
+    normals.push_back(quad_normal(mesh.positions, faces.back()));
   }
   for (std::size_t i = 0; i < faces.size(); ++i)
     for (std::size_t j = i + 1; j < faces.size(); ++j) {

@@ -19,7 +19,6 @@ class VolumeBudget {
     spent_ = total;
     return true;
   }
-  double spent() const { return spent_; }
 
  private:
   double most_;

@@ -1,5 +1,7 @@
 #include "relax/kernel/body.h"
 
+#include <algorithm>
+
 #include "hexwright/base/parallel.h"
 #include "hexwright/quality/hex_quality.h"
 
@@ -57,13 +59,8 @@ void grow_vert_set(const Body& body, std::vector<char>& is_member, int rings) {
 
 std::vector<char> verts_of_poor_hexes(const Body& body, double below) {
   const auto quality = compute_scaled_jacobians(body.mesh);
-  std::vector<char> region;
-  for (HexId h : quality.ids()) {
-    if (quality[h] >= below) continue;
-    if (region.empty()) region.assign(body.num_verts(), 0);
-    for (VertId v : body.mesh.hexes[h]) region[v.index()] = 1;
-  }
-  return region;
+  if (std::none_of(quality.begin(), quality.end(), [&](double q) { return q < below; })) return {};
+  return verts_of_hexes(body, [&](HexId h) { return quality[h] < below; });
 }
 
 }  // namespace hexwright::relax

@@ -60,6 +60,16 @@ IdVector<VertId, double> mean_edge_lengths(const Body& body);
 /// Adds `rings` rings of hex-neighbours to a set of vertices, one entry per vertex.
 void grow_vert_set(const Body& body, std::vector<char>& is_member, int rings);
 
+/// The vertices of hexes for which `is_member(h)`, one entry per vertex.
+template <class IsMember>
+std::vector<char> verts_of_hexes(const Body& body, IsMember&& is_member) {
+  std::vector<char> region(body.num_verts(), 0);
+  for (HexId h : body.mesh.hexes.ids())
+    if (is_member(h))
+      for (VertId v : body.mesh.hexes[h]) region[v.index()] = 1;
+  return region;
+}
+
 /// The vertices of hexes whose scaled Jacobian is below a limit, one entry per vertex; empty when
 /// there is no such hex.
 std::vector<char> verts_of_poor_hexes(const Body& body, double below);

@@ -8,10 +8,6 @@
 
 namespace hexwright::relax {
 
-/// A new attachment weight moves the boundary of a region (one entry per vertex); its inside
-/// follows where the boundary moved.
-void mark_boundary_dirty(FitState& state, const std::vector<char>& region);
-
 /// Moves boundary vertices onto their targets, halving the way up to five times, while the least
 /// scaled Jacobian around stays above min(its present value, `least_quality`) and above 0.
 /// `only`: empty or one entry per vertex.
@@ -34,7 +30,7 @@ void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& opt
 
 struct AverageOptions {
   int sweeps = 3;
-  int power = 8;  ///< the larger, the more a hex is judged by its worst corner alone
+  int power = 8;  ///< of 2; the larger, the more a hex is judged by its worst corner alone
   double tolerance = 0.01;
   double relaxation = 1.6;  ///< see SweepOptions; what three sweeps reach took nine at 1
   double floor = 0;         ///< nowhere the least falls below both this and what it was
@@ -55,7 +51,9 @@ std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, doubl
 
 /// The last of it: moves vertices of these hexes one at a time to where the hexes around them are
 /// positive inside, boundary vertices by at most `slack` (and their size) off where they belong. No
-/// scaled Jacobian falls below min(what was the least there, `floor`). Requires current targets.
-void free_unproven(FitState& state, const std::vector<HexId>& unproven, double slack, double floor);
+/// scaled Jacobian falls below min(what was the least there, the floor); the floors count in turn,
+/// for what the ones before left. Requires current targets. Returns all unproven hexes that remain.
+std::vector<HexId> free_unproven(FitState& state, std::vector<HexId> unproven, double slack,
+                                 std::span<const double> floors);
 
 }  // namespace hexwright::relax

@@ -6,7 +6,9 @@
 // it, the Bezier coefficients do.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/mesh/hex_shape.h"
 #include "hexwright/quality/hex_quality.h"
 
@@ -41,21 +43,37 @@ struct Around {
 
 class Freer {
  public:
-  Freer(FitState& state, double slack, double floor)
-      : state_(state), slack_(slack), floor_(floor), start_(state.mesh.positions) {}
+  Freer(FitState& state, double slack)
+      : state_(state),
+        start_(state.mesh.positions),
+        room_(state.num_verts(), std::numeric_limits<double>::infinity()) {
+    for (VertId v : room_.ids())
+      if (state.is_boundary(v))
+        room_[v] = std::min(slack, state.size[v]) - state.residual(v) * state.size[v];
+  }
 
   // All that moved goes back when the hex stays without a proof. Curves are left last.
-  void free(HexId h) {
+  void free(HexId h, double floor) {
+    check_cancelled();
+    floor_ = floor;
     for (const VertKind last : {VertKind::Surface, VertKind::Corner}) {
-      const auto before = state_.mesh.positions;
+      if (last > VertKind::Surface && !has_features(h)) return;
+      const std::array<Vec3, 8> before = state_.mesh.corners(h);
       for (int round = 0; round < kMaxRounds && improve_around(h, last); ++round) {
       }
       if (check_positivity(state_.mesh.corners(h)) == Positivity::Positive) return;
-      state_.mesh.positions = before;
+      for (std::size_t k = 0; k < 8; ++k)
+        state_.mesh.positions[state_.mesh.hexes[h][k]] = before[k];
     }
   }
 
  private:
+  bool has_features(HexId h) const {
+    const auto& hex = state_.mesh.hexes[h];
+    return std::any_of(hex.begin(), hex.end(),
+                       [&](VertId v) { return state_.kind[v] > VertKind::Surface; });
+  }
+
   // Whether a vertex of the hex moved.
   bool improve_around(HexId h, VertKind last) {
     if (least_share(state_.mesh.corners(h)) >= kEnough) return false;
@@ -77,12 +95,6 @@ class Freer {
     return around;
   }
 
-  bool is_allowed(VertId v, const Vec3& place) const {
-    if (!state_.is_boundary(v)) return true;
-    const double longest = std::min(slack_, state_.size[v]);
-    return distance(place, start_[v]) + state_.residual(v) * state_.size[v] <= longest;
-  }
-
   // To the best of the places around that a cube's faces, edges and corners show the way to.
   bool improve(VertId v) {
     if (state_.move[v] != MoveIn::Space) return false;
@@ -98,7 +110,7 @@ class Freer {
         const Vec3 way{double(x), double(y), double(z)};
         if (i == 13) continue;
         const Vec3 place = from + step * state_.size[v] / norm(way) * way;
-        if (!is_allowed(v, place)) continue;
+        if (!(distance(place, start_[v]) <= room_[v])) continue;
         state_.mesh.positions[v] = place;
         const Around there = look(v);
         if (there.quality < floor || there.lack >= least || there.num_bad > now.num_bad) continue;
@@ -112,16 +124,22 @@ class Freer {
   }
 
   FitState& state_;
-  const double slack_, floor_;
+  double floor_ = 0;
   const IdVector<VertId, Vec3> start_;
+  IdVector<VertId, double> room_;  // how far from the start a vertex may go
 };
 
 }  // namespace
 
-void free_unproven(FitState& state, const std::vector<HexId>& unproven, double slack,
-                   double floor) {
-  Freer freer(state, slack, floor);
-  for (HexId h : unproven) freer.free(h);
+std::vector<HexId> free_unproven(FitState& state, std::vector<HexId> unproven, double slack,
+                                 std::span<const double> floors) {
+  Freer freer(state, slack);
+  for (double floor : floors) {
+    for (HexId h : unproven) freer.free(h, floor);
+    unproven = find_unproven(state.mesh);
+    if (unproven.empty()) break;
+  }
+  return unproven;
 }
 
 }  // namespace hexwright::relax

@@ -8,6 +8,7 @@
 
 #include "hexwright/quality/hex_quality.h"
 
+#include "mesh/quad.h"
 #include "relax/kernel/boundary_quads.h"
 #include "relax/kernel/fixed_bound.h"
 #include "relax/passes/finish.h"
@@ -27,10 +28,8 @@ void hold_features(FitState& state) {
   for (const LabeledEdge& edge : state.mesh.labels.edges)
     for (VertId v : edge.verts) state.move[v] = MoveIn::Point;
   for (VertId v : state.mesh.labels.corners) state.move[v] = MoveIn::Point;
-  const auto& p = state.mesh.positions;
   IdVector<QuadId, Vec3> normal;
-  for (const auto& q : state.quads)
-    normal.push_back(normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]])));
+  for (const auto& quad : state.quads) normal.push_back(quad_normal(state.mesh.positions, quad));
   const BoundaryGraph graph(state.num_verts(),
                             IdSpan<QuadId, const std::array<VertId, 4>>(state.quads));
   for (std::size_t i = 0; i < graph.num_edges(); ++i) {
@@ -122,10 +121,7 @@ class Improver {
       const auto quality = compute_scaled_jacobians(state_.mesh);
       const double least = *std::min_element(quality.begin(), quality.end());
       const double low = least + 0.1 * (1 - least);
-      std::vector<char> region(state_.num_verts(), 0);
-      for (HexId h : quality.ids())
-        if (quality[h] <= low)
-          for (VertId v : state_.mesh.hexes[h]) region[v.index()] = 1;
+      std::vector<char> region = verts_of_hexes(state_, [&](HexId h) { return quality[h] <= low; });
       grow_vert_set(state_, region, 1);
       update_slide_targets(region);
       const LocalSweep local(state_, region);
@@ -173,7 +169,7 @@ class Improver {
 
 Target make_slide_target(const TriMesh& surface) {
   const Similarity frame = compute_unit_frame(surface);
-  return wrap_target(to_unit(surface, frame), {}, frame);
+  return {.frame = frame, .tree = SurfaceTree(to_unit(surface, frame))};
 }
 
 ImproveReport improve(HexMesh& mesh, const ImproveOptions& options, const Context& context) {

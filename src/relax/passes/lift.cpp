@@ -73,10 +73,7 @@ class Lifter {
   }
 
   std::vector<char> surroundings(double low) const {
-    std::vector<char> region(state_.num_verts(), 0);
-    for (HexId h : quality_.ids())
-      if (quality_[h] <= low)
-        for (VertId v : state_.mesh.hexes[h]) region[v.index()] = 1;
+    std::vector<char> region = verts_of_hexes(state_, [&](HexId h) { return quality_[h] <= low; });
     grow_vert_set(state_, region, 1);
     return region;
   }

@@ -1,6 +1,7 @@
 // Positive corners do not make a hex positive inside; better corners nearly always do.
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "hexwright/base/context.h"
 #include "hexwright/quality/hex_quality.h"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kMaxResidual = 0.05;  // in h: a proof is not worth more distance
 // Of quality, besides what there was: a poor hex is better than one that is not valid.
-constexpr double kLastFloors[] = {1, 0.2, 0.1};
+constexpr double kPoorFloors[] = {0.2, 0.1};
 
 double worst_residual(const FitState& state, const std::vector<char>& region) {
   double worst = 0;
@@ -77,12 +78,10 @@ std::vector<HexId> mend_unproven(FitState& state, const FitTarget& target, doubl
     if (unproven.empty()) return unproven;
   }
   update_targets(state, target, 0);
-  for (double last : kLastFloors) {
-    free_unproven(state, unproven, slack, std::min(floor, last));
-    unproven = find_unproven(state.mesh);
-    if (unproven.empty()) break;
-  }
-  return unproven;
+  std::vector<double> floors = {floor};
+  for (double poor : kPoorFloors)
+    if (poor < floors.back()) floors.push_back(poor);
+  return free_unproven(state, std::move(unproven), slack, floors);
 }
 
 }  // namespace hexwright::relax

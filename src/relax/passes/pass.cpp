@@ -4,7 +4,6 @@
 
 #include "hexwright/base/assert.h"
 
-#include "relax/passes/finish.h"
 #include "relax/state/targets.h"
 
 namespace hexwright::relax {
@@ -22,13 +21,25 @@ void sweep_once(const Pass& pass, const LocalSweep& local, SweepOptions sweep, B
     local.run_dirty(body, sweep);
 }
 
+// One round's sweeps on a region. `refresh()` is called before those at each weight.
+template <class Refresh>
+void run_weights(const Pass& pass, const LocalSweep& local, SweepOptions sweep, Body& body,
+                 const Context& context, const Refresh& refresh) {
+  sweep.marks_neighbors = pass.again != Again::Moving;
+  for (double weight : pass.weights) {
+    context.check_cancelled();
+    refresh();
+    sweep.weight = weight;
+    for (int s = 0; s < pass.sweeps; ++s) sweep_once(pass, local, sweep, body);
+  }
+}
+
 /// The rounds of a pass. `find_bad()`: one entry per vertex, or nothing; `refresh(round, region)`
 /// is called before the sweeps at each weight.
 template <class FindBad, class Refresh>
 bool run_rounds(const Pass& pass, Body& body, const Context& context, const FindBad& find_bad,
                 const Refresh& refresh) {
   SweepOptions sweep = pass.sweep;
-  sweep.marks_neighbors = pass.again != Again::Moving;
   sweep.untangle_share = pass.untangle.first;
   for (int round = 0; round < pass.max_rounds; ++round) {
     context.check_cancelled();
@@ -40,12 +51,7 @@ bool run_rounds(const Pass& pass, Body& body, const Context& context, const Find
     if (pass.again != Again::All)
       for (VertId v : body.is_dirty.ids())
         if (region[v.index()]) body.is_dirty[v] = 1;
-    for (double weight : pass.weights) {
-      context.check_cancelled();
-      refresh(round, region);
-      sweep.weight = weight;
-      for (int s = 0; s < pass.sweeps; ++s) sweep_once(pass, local, sweep, body);
-    }
+    run_weights(pass, local, sweep, body, context, [&] { refresh(round, region); });
     sweep.untangle_share = std::max(pass.untangle.ratio * sweep.untangle_share, pass.untangle.last);
   }
   return false;
@@ -61,12 +67,13 @@ std::vector<char> find_stuck(const FitState& state, double limit) {
   return region;
 }
 
-}  // namespace
-
+// A new attachment weight moves the boundary; the inside follows where it moved.
 void mark_boundary_dirty(FitState& state, const std::vector<char>& region) {
   for (VertId v : state.kind.ids())
     if (region[v.index()] && state.is_boundary(v)) state.is_dirty[v] = 1;
 }
+
+}  // namespace
 
 bool run(const Pass& pass, Body& body, const Context& context) {
   HEXWRIGHT_ASSERT(pass.bad == Bad::Hexes);
@@ -87,6 +94,16 @@ bool run(const Pass& pass, FitState& state, const FitTarget& target, const Conte
                         update_targets(state, target, 0, region);
                       if (pass.again == Again::Dirty) mark_boundary_dirty(state, region);
                     });
+}
+
+void run_on(const std::vector<char>& region, const Pass& pass, FitState& state,
+            const FitTarget& target, const Context& context) {
+  SweepOptions sweep = pass.sweep;
+  sweep.untangle_share = pass.untangle.first;
+  run_weights(pass, LocalSweep(state, region), sweep, state, context, [&] {
+    update_targets(state, target, 0, region);
+    if (pass.again == Again::Dirty) mark_boundary_dirty(state, region);
+  });
 }
 
 }  // namespace hexwright::relax

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "hexwright/base/context.h"
 
@@ -34,10 +35,11 @@ inline constexpr double kNoWeights[] = {0};
 struct Pass {
   Bad bad = Bad::Hexes;
   double limit = 0;
-  int max_rounds = 1;                            ///< each finds anew what is bad
-  int rings = 0;                                 ///< of hexes around the bad that move along
-  int rounds_per_ring = 0;                       ///< one ring more every so many rounds; 0 = never
-  SweepOptions sweep;                            ///< its weight is the row's
+  int max_rounds = 1;       ///< each finds anew what is bad
+  int rings = 0;            ///< of hexes around the bad that move along
+  int rounds_per_ring = 0;  ///< one ring more every so many rounds; 0 = never
+  /// Its weight, marks_neighbors, untangle_share and hex_weight follow from the row's fields below.
+  SweepOptions sweep;
   std::span<const double> weights = kNoWeights;  ///< of the attachment, in turn
   int sweeps = 1;                                ///< at each weight
   Again again = Again::All;
@@ -48,10 +50,16 @@ struct Pass {
 
 /// True when nothing bad was left at the start of a round. Requires Bad::Hexes.
 bool run(const Pass& pass, Body& body, const Context& context);
+bool run(const Pass& pass, FitState& state, const Context& context) = delete;  // has a target
 
 /// Boundary vertices are pulled to the target, anew at every weight. Bad hexes are first met with
 /// the targets as they are: what vertices were last asked for is what they have arrived at.
 bool run(const Pass& pass, FitState& state, const FitTarget& target, const Context& context);
+
+/// The sweeps of one round of such a row on a given region, one entry per vertex, without rings:
+/// for sets that no row finds.
+void run_on(const std::vector<char>& region, const Pass& pass, FitState& state,
+            const FitTarget& target, const Context& context);
 
 // The rows of the fit.
 

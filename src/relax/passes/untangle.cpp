@@ -15,14 +15,12 @@ namespace {
 
 std::vector<char> verts_of_tangled(const FitState& state, double low, std::size_t& num_tangled) {
   const auto quality = compute_scaled_jacobians(state.mesh);
-  std::vector<char> region(state.num_verts(), 0);
   num_tangled = 0;
-  for (HexId h : quality.ids()) {
-    if (quality[h] > low) continue;
-    ++num_tangled;
-    for (VertId v : state.mesh.hexes[h]) region[v.index()] = 1;
-  }
-  return region;
+  return verts_of_hexes(state, [&](HexId h) {
+    const bool is_tangled = quality[h] <= low;
+    num_tangled += is_tangled;
+    return is_tangled;
+  });
 }
 
 }  // namespace

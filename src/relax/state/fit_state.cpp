@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "relax/kernel/boundary_quads.h"
+
 namespace hexwright::relax {
 
 double FitState::residual(VertId v) const {
@@ -87,21 +89,11 @@ void FitState::rebuild() {
 }
 
 void FitState::update_sizes() {
-  IdVector<VertId, double> sum(num_verts(), 0);
-  IdVector<VertId, int> count(num_verts(), 0);
-  for (const auto& quad : quads) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const VertId a = quad[k], b = quad[(k + 1) % 4];
-      const double length = distance(mesh.positions[a], mesh.positions[b]);
-      for (VertId v : {a, b}) {
-        sum[v] += length;
-        ++count[v];
-      }
-    }
-  }
+  const auto length = compute_edge_lengths(IdSpan<VertId, const Vec3>(mesh.positions),
+                                           IdSpan<QuadId, const std::array<VertId, 4>>(quads));
   size = mean_edge_lengths(*this);
   for (VertId v : size.ids())
-    if (count[v] > 0) size[v] = sum[v] / count[v];
+    if (length[v] > 0) size[v] = length[v];
 }
 
 }  // namespace hexwright::relax

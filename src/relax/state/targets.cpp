@@ -6,6 +6,7 @@
 
 #include "hexwright/base/parallel.h"
 
+#include "mesh/quad.h"
 #include "relax/state/curve_targets.h"
 
 namespace hexwright::relax {
@@ -14,12 +15,11 @@ namespace {
 // Of the boundary vertices with only[v] != 0 (all when `only` is empty); others' are not used.
 IdVector<VertId, Vec3> compute_vertex_normals(const FitState& state, std::span<const char> only) {
   IdVector<VertId, Vec3> normals(state.num_verts());
-  const auto& p = state.mesh.positions;
   for (const auto& q : state.quads) {
     if (!only.empty() &&
         std::none_of(q.begin(), q.end(), [&](VertId v) { return only[v.index()] != 0; }))
       continue;
-    const Vec3 n = normalized(cross(p[q[2]] - p[q[0]], p[q[3]] - p[q[1]]));
+    const Vec3 n = quad_normal(state.mesh.positions, q);
     for (VertId v : q) normals[v] += n;
   }
   return normals;

@@ -10,6 +10,7 @@
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
 
+#include "mesh/quad.h"
 #include "render/page/view_arrays.h"
 
 namespace hexwright {
@@ -21,18 +22,6 @@ constexpr std::size_t kNumWorstListed = 100;
 
 Json to_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
-// Of a quad as four triangles about its centre.
-double quad_area(const HexMesh& mesh, const std::array<VertId, 4>& quad) {
-  Vec3 center;
-  for (VertId v : quad) center += mesh.positions[v] / 4;
-  double area = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    area +=
-        norm(cross(mesh.positions[quad[k]] - center, mesh.positions[quad[(k + 1) % 4]] - center)) /
-        2;
-  return area;
-}
-
 Json list_patches(const HexMesh& mesh) {
   struct Patch {
     std::size_t num_quads = 0;
@@ -43,7 +32,7 @@ Json list_patches(const HexMesh& mesh) {
     if (!quad.patch.is_valid()) continue;
     patches.resize(std::max(patches.size(), quad.patch.index() + 1));
     ++patches[quad.patch.index()].num_quads;
-    patches[quad.patch.index()].area += quad_area(mesh, quad.verts);
+    patches[quad.patch.index()].area += quad_area(mesh.positions, quad.verts);
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < patches.size(); ++i)
