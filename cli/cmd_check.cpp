@@ -136,7 +136,7 @@ void add_check_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<CheckCommand>();
   CLI::App* sub = app.add_subcommand("check", "Judge a hex mesh of any program, or a grid");
   sub->add_option("input", cmd->input,
-                  "Hex mesh (VTU, VTK, MEDIT, Gmsh, Abaqus) or grid (.cells, .htg)")
+                  "Hex mesh (VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM, Exodus) or grid (.cells, .htg)")
       ->required();
   sub->add_option("reference", cmd->reference,
                   "Of a mesh: the surface it stands for. Of a grid: the grid before completion, "

@@ -50,7 +50,8 @@ void run(const ImproveCommand& cmd, Program& program) {
 void add_improve_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<ImproveCommand>();
   CLI::App* sub = app.add_subcommand("improve", "Better element shapes, same connectivity");
-  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh or Abaqus")->required();
+  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus")
+      ->required();
   add_mesh_output_option(*sub, cmd->output);
   sub->add_option("--slide-on", cmd->surface,
                   "Boundary vertices slide on this surface instead of staying");

@@ -61,7 +61,8 @@ void run(const PictureCommand& cmd, Program& program) {
 void add_picture_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<PictureCommand>();
   CLI::App* sub = app.add_subcommand("picture", "Draw a hex mesh as PNG");
-  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh or Abaqus")->required();
+  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus")
+      ->required();
   sub->add_option("-o,--output", cmd->output, "Picture: .png")->required();
   sub->add_option("--cut", cmd->cut, "Axis across which the mesh is cut open")
       ->check(CLI::IsMember({"auto", "x", "y", "z", "none"}))

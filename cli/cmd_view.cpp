@@ -59,7 +59,8 @@ void run(const ViewCommand& cmd, Program& program) {
 void add_view_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<ViewCommand>();
   CLI::App* sub = app.add_subcommand("view", "Look into a hex mesh in the browser");
-  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh or Abaqus")->required();
+  sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus")
+      ->required();
   sub->add_option("surface", cmd->surface,
                   "Surface that it stands for, to be drawn over it: OBJ, OFF, STL or PLY");
   sub->add_option("-o,--output", cmd->output, "Page: .html [a new folder for temporary files]");

@@ -23,6 +23,9 @@ if(HEXWRIGHT_CAD)
   install(EXPORT hexwright-cad-targets NAMESPACE hexwright::
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
 endif()
+if(HEXWRIGHT_NETCDF)
+  install(FILES cmake/FindNetcdfLibrary.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
+endif()
 install(DIRECTORY include/hexwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hexwright-targets NAMESPACE hexwright::
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)

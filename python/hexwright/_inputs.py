@@ -230,7 +230,7 @@ class TetMesh:
 
 
 def as_tets(tets: Any) -> TetMesh:
-    """A path (MEDIT, VTK, VTU, Gmsh, Abaqus), a pair of arrays, or a meshio.Mesh."""
+    """A path (MEDIT, VTK, VTU, Gmsh, Abaqus, MFEM, Exodus), a pair of arrays, or a meshio.Mesh."""
     if isinstance(tets, TetMesh):
         return tets
     if is_path(tets):

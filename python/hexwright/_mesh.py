@@ -317,7 +317,7 @@ def _tell_apart(names: list[str]) -> list[str]:
 
 
 def read(path: PathLike) -> HexMesh:
-    """Reads a hex mesh of any program: VTU, legacy VTK, MEDIT, Gmsh or Abaqus, by content first and extension second.
+    """Reads a hex mesh of any program: VTU, legacy VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus, by content first and extension second.
 
     Parameters
     ----------

@@ -79,7 +79,8 @@ std::vector<Sample> make_samples(const TempFolder& folder) {
                "solid a b\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n"
                "   vertex 0 1 0\n  endloop\n endfacet\nendsolid a b\n");
   add("text.stl", read_and_check_surface);
-  for (const char* name : {"a.vtu", "a.vtk", "a.mesh", "a.msh", "a.msh2", "a.inp"}) {
+  for (const char* name :
+       {"a.vtu", "a.vtk", "a.mesh", "a.msh", "a.msh2", "a.inp", "a.exo", "a.mfem"}) {
     write_hex_mesh(folder / name, test::labelled_box());
     add(name, read_and_check_hexes);
   }
@@ -143,7 +144,7 @@ TEST(DamagedFiles, RandomBytesUnderAnyNameAreRefused) {
   const TempFolder folder;
   std::mt19937 random(4);
   for (const char* name : {"a.obj", "a.off", "a.stl", "a.ply", "a.vtk", "a.vtu", "a.mesh", "a.msh",
-                           "a.inp", "a.cells", "a.htg", "a"}) {
+                           "a.inp", "a.exo", "a.mfem", "a.cells", "a.htg", "a"}) {
     for (std::size_t size : {1u, 83u, 85u, 1000u}) {
       std::string bytes(size, '\0');
       for (char& c : bytes) c = static_cast<char>(random());

@@ -57,7 +57,9 @@ TEST(SecondOrder, ComesBackFromEveryFormatThatIsRead) {
                                                           {"a.msh", 27},
                                                           {"a.msh2", 20},
                                                           {"a.msh2", 27},
-                                                          {"a.inp", 20}}) {
+                                                          {"a.inp", 20},
+                                                          {"a.exo", 20},
+                                                          {"a.mfem", 27}}) {
     SCOPED_TRACE(std::string(name) + " " + std::to_string(nodes_per_hex));
     WriteHexOptions options;
     options.nodes_per_hex = nodes_per_hex;

@@ -11,6 +11,7 @@
 #include "io/solver/solver_formats.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
+#include "io/text/netcdf_file.h"
 #include "io/text/text_scanner.h"
 
 namespace hexwright {
@@ -46,8 +47,8 @@ constexpr MeshFormat kFormats[] = {
     {"Gmsh 4.1", "gmsh", ".msh", read_gmsh, gmsh_names, without_options<gmsh_text>, {27, 20}},
     {"Gmsh 2.2", "gmsh2", ".msh2", read_gmsh, gmsh_names, without_options<gmsh2_text>, {27, 20}},
     {"Abaqus", "abaqus", ".inp", read_abaqus, abaqus_names, without_options<abaqus_text>, {20}},
-    {"MFEM", "mfem", ".mfem", nullptr, mfem_names, without_options<mfem_text>, {27}},
-    {"Exodus II", "exodus", ".exo", nullptr, exodus_names, without_options<exodus_bytes>, {20}},
+    {"MFEM", "mfem", ".mfem", read_mfem, mfem_names, without_options<mfem_text>, {27}},
+    {"Exodus II", "exodus", ".exo", read_exodus, exodus_names, without_options<exodus_bytes>, {20}},
     {"Nastran", "nastran", ".bdf", nullptr, nastran_names, without_options<nastran_text>, {20}},
     {"Ansys", "ansys", ".cdb", nullptr, ansys_names, without_options<ansys_text>, {20}},
     {"LS-DYNA", "lsdyna", ".k", nullptr, lsdyna_names, of_first_order<lsdyna_text>},
@@ -170,10 +171,12 @@ VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& exte
   const std::string_view bytes = source.bytes;
   if (bytes.empty()) throw bad_file(source.name, "the file is empty; export it again");
   if (bytes.starts_with("# vtk DataFile")) return read_vtk_legacy(source);
+  if (is_netcdf_classic(bytes) || is_hdf5(bytes)) return read_exodus(source);
   const std::string_view first = TextScanner(bytes, source.name).token();
   if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(source);
   if (first == "MeshVersionFormatted") return read_medit(source);
   if (first == "$MeshFormat") return read_gmsh(source);
+  if (first == "MFEM") return read_mfem(source);
   const MeshFormat* format = find_format(extension);
   if (format && format->read) return format->read(source);
   throw bad_file(source.name,

@@ -40,6 +40,8 @@ VolumeFile read_vtk_legacy(const VolumeSource& source);
 VolumeFile read_vtu(const VolumeSource& source);
 VolumeFile read_gmsh(const VolumeSource& source);
 VolumeFile read_abaqus(const VolumeSource& source);
+VolumeFile read_mfem(const VolumeSource& source);
+VolumeFile read_exodus(const VolumeSource& source);
 /// Finds the format by content, then by extension.
 VolumeFile read_volume_bytes(const VolumeSource& source, const std::string& extension);
 

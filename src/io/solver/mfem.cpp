@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/solver/boundary_sides.h"
+#include "io/solver/mfem_order.h"
 #include "io/solver/solver_formats.h"
 #include "io/text/text_writer.h"
 
@@ -66,9 +67,6 @@ void write_boundary_names(const SetTable& table, const BoundarySides& sides, Tex
 void write_square(std::size_t attribute, const std::array<VertId, 4>& verts, TextWriter& out) {
   out.integer(attribute).text(" ").integer(kSquare).text(" ").indices(verts, 0).text("\n");
 }
-
-/// Local faces in the library's order.
-constexpr std::array<int, 6> kMfemFaces = {4, 2, 1, 3, 0, 5};
 
 void write_nodes(const NodeTable& nodes, TextWriter& out) {
   const HexMesh& mesh = nodes.mesh();
