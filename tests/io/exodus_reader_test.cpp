@@ -105,11 +105,9 @@ TEST(Exodus, SetsOfNodesMeanWhatTheirNodesForm) {
   const SetTable table = make_set_table(mesh);
   ASSERT_EQ(table.regions.size(), 1u);
   EXPECT_EQ(table.regions[0].name, "block_4");
-  ASSERT_EQ(table.patches.size(), 2u) << "the rest of the boundary is the set of everything";
+  ASSERT_EQ(table.patches.size(), 1u) << "everything is no patch";
   EXPECT_EQ(table.patches[0].name, "start");
   EXPECT_EQ(table.patches[0].members.size(), 1u);
-  EXPECT_EQ(table.patches[1].name, "everything");
-  EXPECT_EQ(table.patches[1].members.size(), 13u);
   ASSERT_EQ(table.curves.size(), 1u);
   EXPECT_EQ(table.curves[0].name, "edge");
   EXPECT_EQ(table.curves[0].members.size(), 3u);

@@ -198,6 +198,7 @@ def write_by_meshio(check, box):
     path = check.folder / "box.msh"
     meshio.write(path, mesh, "gmsh22", binary=False)
     check.expect(path, REGIONS, PATCHES, CURVES, CORNERS)
+    write_abaqus_by_meshio(check, box)
     if not foreign_reader.is_installed("module", "netCDF4"):
         print("netCDF4 is not installed: meshio writes no Exodus files")
         return
@@ -211,6 +212,67 @@ def write_by_meshio(check, box):
     if build_reads_netcdf4(check, path):
         check.expect(path, {("region", "block_0"): 1, ("region", "block_1"): 1, ("patch", "block_2"): 1,
                             ("patch", "block_3"): 1, ("patch", "block_4"): 8}, CURVES, CORNERS)
+
+
+def write_abaqus_by_meshio(check, box):
+    """Sets of hexes, of quads and of nodes, none of them named by the lines of elements."""
+    import meshio
+
+    sides = {name: box.quads(name) for name in box.sides}
+    quads = [quad for rows in sides.values() for quad in rows]
+    cells = [("hexahedron", box.hexes), ("quad", quads)]
+    sets, first = {name: [meshio_array(hexes), meshio_array([])] for name, hexes in box.regions.items()}, 0
+    for name, rows in sides.items():
+        sets[name] = [meshio_array([]), meshio_array(range(first, first + len(rows)))]
+        first += len(rows)
+    points = {"rim": meshio_array(box.rim), "pins": meshio_array(box.pins)}
+    path = check.folder / "box.inp"
+    meshio.write(path, meshio.Mesh(box.points, cells, cell_sets=sets, point_sets=points), "abaqus")
+    check.expect(path, REGIONS, PATCHES, CURVES, CORNERS)
+
+
+def write_by_gmsh(check, _):
+    """Two boxes that share a face, meshed by Gmsh itself, with physical groups of every dimension."""
+    import gmsh
+
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    occ, mesh = gmsh.model.occ, gmsh.model.mesh
+    occ.fragment([(3, occ.addBox(0, 0, 0, 1, 1, 1))], [(3, occ.addBox(1, 0, 0, 1, 1, 1))])
+    occ.synchronize()
+
+    def tags(dimension, x0, x1):
+        found = gmsh.model.getEntitiesInBoundingBox(x0 - 0.1, -0.1, -0.1, x1 + 0.1, 1.1, 1.1, dimension)
+        return [tag for _, tag in found]
+
+    inlet, outlet, middle = tags(2, 0, 0), tags(2, 2, 2), tags(2, 1, 1)
+    wall = [tag for _, tag in gmsh.model.getEntities(2) if tag not in inlet + outlet + middle]
+    for number, (dimension, members, name) in enumerate([
+            (3, tags(3, 0, 1), "steel"), (3, tags(3, 1, 2), "copper"), (2, inlet, "inlet"), (2, outlet, "outlet"),
+            (2, wall, "wall"), (1, tags(1, 0, 0), "rim"), (0, tags(0, 2, 2), "pins")], 11):
+        gmsh.model.addPhysicalGroup(dimension, members, number, name)
+    for _, tag in gmsh.model.getEntities(1):
+        mesh.setTransfiniteCurve(tag, 3)
+    for _, tag in gmsh.model.getEntities(2):
+        mesh.setTransfiniteSurface(tag)
+        mesh.setRecombine(2, tag)
+    for _, tag in gmsh.model.getEntities(3):
+        mesh.setTransfiniteVolume(tag)
+    mesh.generate(3)
+    for order in (1, 2):
+        mesh.setOrder(order)
+        for version in (2.2, 4.1):
+            gmsh.option.setNumber("Mesh.MshFileVersion", version)
+            gmsh.write(str(check.folder / "box.msh"))
+            check.expect(check.folder / "box.msh", REGIONS, PATCHES, CURVES, CORNERS)
+        for has_nodes in (0, 1):
+            gmsh.option.setNumber("Mesh.SaveGroupsOfNodes", has_nodes)
+            gmsh.write(str(check.folder / "box.inp"))
+            check.expect(check.folder / "box.inp", REGIONS, PATCHES, CURVES, CORNERS if has_nodes else {})
+            second_order = check.verdict(check.folder / "box.inp").get("second_order")
+            assert (second_order is None) == (order == 1)
+            assert order == 1 or second_order["curved_hexes"] == 0, second_order  # their nodes are in place
+    gmsh.finalize()
 
 
 def meshio_array(numbers):
@@ -270,7 +332,7 @@ def bend_mfem(check, mesh, mfem):
     check.refuse(path, "bent.mesh:", "order 1 or 2")
 
 
-WRITERS = {"meshio": write_by_meshio, "netCDF4": write_by_netcdf, "mfem": write_by_mfem}
+WRITERS = {"gmsh": write_by_gmsh, "meshio": write_by_meshio, "netCDF4": write_by_netcdf, "mfem": write_by_mfem}
 
 
 def main():

@@ -59,8 +59,7 @@ TEST(NamedMeshes, ComeBackFromEveryFormatThatIsRead) {
     const auto path =
         folder / (std::string("a.") + (format == std::string("abaqus") ? "inp" : "x"));
     const auto changed = write_hex_mesh(path, mesh, options).changed_names;
-    const bool with_corners = format != std::string("mfem");
-    const bool with_curves = with_corners && format != std::string("abaqus");
+    const bool with_corners = format != std::string("mfem"), with_curves = with_corners;
     std::map<std::string, Points> expected;
     for (auto& [name, points] : centres_by_name(mesh, with_curves, with_corners)) {
       const auto as_written = std::find_if(changed.begin(), changed.end(),
@@ -250,6 +249,52 @@ TEST(Abaqus, ForeignFilesRead) {
   for (std::size_t q : table.patches[0].members)
     for (VertId v : mesh.labels.quads[q].verts) EXPECT_EQ(mesh.positions[v].z, 1);
   EXPECT_EQ(mesh.labels.corners, (std::vector{VertId(0), VertId(8)}));
+}
+
+/// As a program for parts and assemblies writes it: sets of the assembly, surfaces of internal
+/// sets.
+constexpr const char* kAssemblySets = R"(*Nset, nset=_picked, internal, instance=Part-1-1, generate
+1, 4, 1
+*Nset, nset=front, instance=Part-1-1
+1, 2, 9
+*Elset, elset=_Top_S2, internal, instance=Part-1-1, generate
+7, 8, 1
+*Surface, type=ELEMENT, name=Top
+_Top_S2, S2
+*Surface, type=ELEMENT, name=Skin
+Part-1-1.skin, SPOS
+*Surface, type=NODE, name=Tip
+9, 1.
+12
+*Element, type=S4R, elset=shells
+20, 1, 2, 3, 4
+21, 2, 9, 10, 3
+22, 5, 6, 7, 8
+23, 1, 2, 7, 8
+*Elset, elset=skin
+20, 22
+*Element, type=B31, elset=bars
+30, 4, 3
+31, 3, 10
+)";
+
+TEST(Abaqus, SetsOfAssembliesShellsAndBarsRead) {
+  const TempFolder folder;
+  std::string text = kForeignInp;
+  const auto first = text.find("*Elset, elset=tops"), end = text.find("*Solid Section");
+  text.replace(first, end - first, kAssemblySets);
+  const HexMesh mesh = read_hex_mesh(folder.write("a.inp", text));
+  const SetTable table = make_set_table(mesh);
+  std::map<std::string, std::size_t> sizes;
+  for (const auto* sets : {&table.regions, &table.patches, &table.curves, &table.corners})
+    for (const NamedSet& set : *sets) sizes[set.name] = set.members.size();
+  const std::map<std::string, std::size_t> expected = {
+      {"left part", 1}, {"Right", 1},   // hexes
+      {"Top", 2},                       // faces; shell 22 lies on one of them
+      {"Skin", 1},      {"shells", 1},  // shells 20 and 21; 23 is no face
+      {"front", 2},     {"bars", 2},    // edges
+      {"CORNERS", 2}};                  // nodes 9 and 12 of Tip, which no edge joins
+  EXPECT_EQ(sizes, expected);
 }
 
 TEST(Abaqus, SetsThatNameEachOtherDoNotMultiply) {

@@ -12,6 +12,7 @@ namespace {
 struct Formed {
   std::vector<std::array<VertId, 4>> boundary;  // faces, each once
   std::set<std::array<VertId, 2>> edges;
+  bool has_hex = false;
   std::size_t on_faces = 0, on_boundary = 0, on_edges = 0;  // how many nodes such elements have
 };
 
@@ -60,6 +61,7 @@ class NodeSetReader {
 
   /// Elements of a hex are visited from their lowest vertex.
   void visit(VertId v, HexId h, Formed& formed) {
+    formed.has_hex = formed.has_hex || all_in_set(mesh_.hexes[h]);
     for (const auto& edge : kHexEdges) {
       std::array<VertId, 2> ends = {mesh_.hexes[h][static_cast<std::size_t>(edge[0])],
                                     mesh_.hexes[h][static_cast<std::size_t>(edge[1])]};
@@ -83,6 +85,12 @@ class NodeSetReader {
   HexNeighbors neighbors_;
   IdVector<VertId, char> marks_;
 };
+
+std::string capitals(std::string name) {
+  for (char& c : name)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return name;
+}
 
 template <class Verts>
 Verts sorted(Verts verts) {
@@ -122,20 +130,32 @@ void LabelCollector::add_node_set(const std::string& name, std::vector<VertId> v
   node_sets_.emplace_back(name, std::move(verts));
 }
 
-bool LabelCollector::is_named_as_quads(const std::string& name) const {
-  constexpr std::string_view kSuffix = "_NODES";
-  if (quads_.set_to_tag.contains(name)) return true;
-  return name.ends_with(kSuffix) &&
-         quads_.set_to_tag.contains(name.substr(0, name.size() - kSuffix.size()));
+/// In capitals, each also with what is put behind it for the nodes.
+std::set<std::string> LabelCollector::names_of_elements() const {
+  std::set<std::string> names;
+  const auto add = [&](const auto& elements) {
+    for (const auto& [set, tag] : elements.set_to_tag) {
+      names.insert(capitals(set));
+      names.insert(capitals(set) + "_NODES");
+    }
+  };
+  add(quads_);
+  add(edges_);
+  return names;
 }
 
 void LabelCollector::read_node_sets() {
   if (node_sets_.empty() || file_.hexes.empty()) return;
   NodeSetReader reader(file_);
+  const auto known = names_of_elements();
   for (const auto& [name, all_verts] : node_sets_) {
     const auto verts = reader.on_hexes(all_verts);
-    if (verts.empty() || is_named_as_quads(name)) continue;
+    if (verts.empty() || known.contains(capitals(name))) continue;
     const Formed formed = reader.form(verts);
+    if (formed.has_hex) {
+      ++file_.num_others;
+      continue;
+    }
     if (name == default_set_name(SetKind::Corners, -1) || formed.edges.empty())
       corners_.insert(verts.begin(), verts.end());
     else if (formed.on_boundary == verts.size())

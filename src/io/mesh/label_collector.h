@@ -25,7 +25,9 @@ class LabelCollector {
 
   /// Of vertices of hexes; others are left out. The set means
   /// - corners, where it is called CORNERS or no two of its nodes are ends of one edge;
-  /// - nothing new, where it is called as a set of quads is, with "_NODES" behind or without;
+  /// - nothing new, where it is called as a set of quads or edges is, whatever the case, with
+  /// "_NODES"
+  ///   behind or without, or has all vertices of a hex;
   /// - a patch of the faces between its nodes that no set has, where these are on the boundary and
   ///   have all its nodes;
   /// - a curve of the edges between its nodes, where these have all nodes and faces at most half of
@@ -48,7 +50,7 @@ class LabelCollector {
   };
 
   void read_node_sets();
-  bool is_named_as_quads(const std::string& name) const;
+  std::set<std::string> names_of_elements() const;
 
   VolumeFile& file_;
   Elements<std::array<VertId, 4>, 4> quads_;
