@@ -105,14 +105,19 @@ def step_patches(mesh):
     return quads, patches
 
 
-def write_medit(path, mesh, quads, patches):
-    """With the quads' patches as references, and the edges between two patches as feature edges."""
+def feature_edges(quads, patches):
+    """Edges between two patches, as two vertices and a number from 1 for each pair of patches."""
     sides = {}
     for quad, patch in zip(quads, patches):
         for a, b in zip(quad, np.roll(quad, -1)):
             sides.setdefault((min(a, b), max(a, b)), []).append(patch)
     pairs = sorted({tuple(sorted(s)) for s in sides.values() if s[0] != s[-1]})
-    edges = [(*verts, pairs.index(tuple(sorted(s))) + 1) for verts, s in sides.items() if s[0] != s[-1]]
+    return [(*verts, pairs.index(tuple(sorted(s))) + 1) for verts, s in sides.items() if s[0] != s[-1]]
+
+
+def write_medit(path, mesh, quads, patches):
+    """With the quads' patches as references, and the edges between two patches as feature edges."""
+    edges = feature_edges(quads, patches)
     ends = np.bincount([v for a, b, _ in edges for v in (a, b)], minlength=len(mesh.points))
     corners = np.flatnonzero(ends >= 3)
     with open(path, "w") as file:
@@ -127,7 +132,7 @@ def write_medit(path, mesh, quads, patches):
         file.write(f"Hexahedra\n{len(mesh.hexes)}\n")
         file.writelines(" ".join(str(v + 1) for v in verts) + f" {tag}\n" for verts, tag in zip(mesh.hexes, mesh.regions))
         file.write("End\n")
-    return len(pairs), len(corners)
+    return max(ref for _, _, ref in edges), len(corners)
 
 
 def write_vtk(path, mesh):

@@ -10,7 +10,7 @@ import {Panel} from './panel.js';
 import {pickFace} from './pick.js';
 import {savePicture} from './picture.js';
 import {AXES, fromHash, initialState, placeOfCut, toHash} from './state.js';
-import {collectFaces, cutPlane, findIrregularEdges, selectHexes, statePlane} from './topology.js';
+import {collectFaces, cutPlane, findIrregularEdges, findKeptVerts, selectHexes, statePlane} from './topology.js';
 
 export class App {
   constructor(mesh) {
@@ -30,7 +30,6 @@ export class App {
     this.steerHandle();
     bindKeys(this);
     addEventListener('hashchange', () => this.restore());
-    this.drawing.setLines(this.drawing.curves, ...Object.values(curveLines(this.mesh)));
     this.restore();
     new ResizeObserver(() => this.resize()).observe(element('stage'));
   }
@@ -57,13 +56,13 @@ export class App {
     this.pending.clear();
     if (!this.selection) todo.add('hexes');
     if (todo.has('hexes')) this.selection = selectHexes(mesh, state);
-    if (todo.has('hexes') || todo.has('faces')) this.faces = collectFaces(mesh, this.selection.kept, state.hiddenPatches);
+    if (todo.has('hexes') || todo.has('faces')) this.faces = collectFaces(mesh, this.selection.kept, state);
     if (todo.has('hexes') || todo.has('faces') || todo.has('colors')) drawing.setFaces(this.faces, colorFaces(mesh, this.faces, this.coloring(), state));
     if (todo.has('lines') || todo.has('hexes')) this.drawLines();
     drawing.faces.mesh.visible = state.faces && this.faces.length > 0;
     drawing.faceUniforms.edges.value = state.edges ? 1 : 0;
     drawing.curves.mesh.visible = state.curves && Boolean(mesh.curves);
-    drawing.corners.visible = state.corners && Boolean(mesh.corners);
+    drawing.corners.visible = state.corners && drawing.cornerCount > 0;
     if (drawing.surface) {
       drawing.surface.visible = state.surface;
       drawing.surface.material.uniforms.opacity.value = state.opacity;
@@ -78,6 +77,9 @@ export class App {
   drawLines() {
     const {mesh, state, drawing} = this, none = [new Float32Array(), new Uint8Array()];
     const set = (lines, made) => drawing.setLines(lines, ...(made ? [made.segments, made.colors] : none));
+    const keptVerts = findKeptVerts(mesh, this.selection);
+    set(drawing.curves, curveLines(mesh, keptVerts, state));
+    drawing.setCorners(mesh, keptVerts);
     set(drawing.plane, state.cut && planeOutline(mesh.frame, statePlane(mesh, state)));
     set(drawing.chosen, state.chosen && hexOutline(mesh, state.chosen.hex));
     set(drawing.irregular, state.irregular && irregularLines(mesh, this.irregularEdges(), this.valences));
@@ -86,7 +88,7 @@ export class App {
   /// Found when first asked for: it takes a second per million hexes. Those of the boundary are left out until chosen, for creases have them by right.
   irregularEdges() {
     if (!this.irregular) {
-      this.irregular = findIrregularEdges(this.mesh.hexes, this.mesh.neighbors, this.mesh.positions.length / 3);
+      this.irregular = findIrregularEdges(this.mesh);
       this.irregular.groups = new Map();
       this.irregular.valence.forEach((valence, i) => {
         const group = groupOf(valence, this.irregular.onBoundary[i]);
@@ -140,6 +142,14 @@ export class App {
   choosePatch(patch) {
     this.change('lines', {chosen: null, worst: -1, chosenPatch: this.state.chosenPatch === patch ? -1 : patch});
     this.refresh('colors');
+  }
+
+  chooseCurve(curve) { this.change('lines', {chosenCurve: this.state.chosenCurve === curve ? -1 : curve, curves: true}); }
+
+  /// Bins of the histogram, in any order: 0 is inverted, i from (i - 1)/50 to i/50.
+  setRange(bin, other) {
+    const first = Math.min(bin, other), last = Math.max(bin, other);
+    this.change('hexes', {low: Math.max(0, first - 1), high: last});
   }
 
   /// Cuts open what hides the hex, towards the eye, and goes there.

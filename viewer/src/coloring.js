@@ -1,8 +1,6 @@
 // What faces are coloured by: each choice gives a colour per face and a legend.
-import {categoryColor, INVERTED, mix, NEUTRAL, PALE, qualityColor, risingColor} from './colors.js';
+import {categoryColor, HIGHLIGHT, INVERTED, mix, NEUTRAL, PALE, qualityColor, risingColor} from './colors.js';
 import {markedIndex, patchOf, regionOf} from './data.js';
-
-const HIGHLIGHT = [255, 150, 20];
 
 /// {key, label, ofHex or ofFace, legend} of all that the mesh has data for.
 export function makeColorings(mesh) {

@@ -11,6 +11,7 @@ const CATEGORIES = [[86, 133, 186], [232, 150, 62], [102, 166, 92], [214, 99, 96
 export const INVERTED = [255, 0, 200];
 export const NEUTRAL = [198, 204, 211];
 export const PALE = [243, 241, 236];
+export const HIGHLIGHT = [255, 150, 20];
 
 export const mix = (a, b, share) => [0, 1, 2].map(k => a[k] + (b[k] - a[k]) * share);
 export const css = color => `rgb(${color.map(Math.round).join(' ')})`;
@@ -24,6 +25,12 @@ export const risingColor = value => sample(RISING, value);
 export function categoryColor(i) {
   const round = Math.floor(i / CATEGORIES.length);
   return mix(CATEGORIES[i % CATEGORIES.length], [255, 255, 255], round % 3 * 0.28);
+}
+export const isDark = () => document.documentElement.dataset.theme === 'dark';
+/// Dark on a light page, light on a dark one. -1 = of no name.
+export function curveColor(curve) {
+  if (curve < 0) return isDark() ? [200, 206, 214] : [30, 34, 42];
+  return isDark() ? mix(categoryColor(curve), [255, 255, 255], 0.25) : categoryColor(curve).map(x => x * 0.6);
 }
 /// Of an edge with so many hexes about it, inside or on the boundary.
 export const valenceColor = valence => valence <= 2 ? [140, 40, 160] : valence === 3 ? [215, 48, 39] : valence === 5 ? [36, 140, 70] : [30, 90, 200];

@@ -1,8 +1,8 @@
-// Draws faces, lines, points and the input surface. Faces are instances: eight numbers of the hex and its vertices come from textures, so that
-// another choice of faces costs four bytes each, and the edges of quads are drawn by the fragment, without diagonals.
-import {BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, Points,
-  RawShaderMaterial, RGBAFormat, RGBAIntegerFormat, Scene, UnsignedIntType, Vector2, WebGLRenderer} from 'three';
-import {GRID, GRID_INDEX, QUAD, QUAD_INDEX} from './places.js';
+// Draws faces, lines, points and the input surface. The hex of a face, its vertices and their places come from textures, so that another choice of
+// faces costs eight bytes each, and the edges of quads are drawn by the fragment, without diagonals.
+import {BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, IntType, Mesh, NearestFilter, Points,
+  RawShaderMaterial, RGBAFormat, RGBAIntegerFormat, RGIntegerFormat, Scene, UnsignedIntType, Vector2, WebGLRenderer} from 'three';
+import {GRID, GRID_INDEX, QUAD_INDEX} from './places.js';
 import {FACE_EDGES, FACES} from './topology.js';
 
 const WIDTH = 2048;  // of data textures
@@ -15,7 +15,11 @@ vec3 lit(vec3 color, vec3 normal) {
 
 const FACE_VERTEX = `precision highp float; precision highp int;
 uniform highp usampler2D hexes; uniform highp sampler2D verts; uniform mat4 modelViewMatrix, projectionMatrix;
+#ifdef CURVED
 in vec3 position; in uint face; in vec4 color;
+#else
+uniform highp usampler2D faces; in uint corner;
+#endif
 out vec2 place; flat out vec3 shade;
 #ifdef CURVED
 out vec3 normal;
@@ -24,7 +28,7 @@ flat out vec3 normal;
 #endif
 const uint corners[24] = uint[24](${FACES.flat().map(v => `${v}u`).join(',')});
 ivec2 texel(uint i) { return ivec2(i % ${WIDTH}u, i / ${WIDTH}u); }
-vec3 corner(uvec4 low, uvec4 high, uint lf, uint k) {
+vec3 cornerAt(uvec4 low, uvec4 high, uint lf, uint k) {
   uint lv = corners[lf * 4u + k];
   return texelFetch(verts, texel(lv < 4u ? low[lv] : high[lv - 4u]), 0).xyz;
 }
@@ -39,9 +43,14 @@ vec3 weights(float t) { return vec3((1. - t) * (1. - 2. * t), 4. * t * (1. - t),
 vec3 slopes(float t) { return vec3(4. * t - 3., 4. - 8. * t, 4. * t - 1.); }
 #endif
 void main() {
+#ifndef CURVED
+  uvec2 given = texelFetch(faces, texel(uint(gl_VertexID) / ${QUAD_INDEX.length}u), 0).xy;
+  uint face = given.x;
+  vec3 color = vec3(uvec3(given.y, given.y >> 8u, given.y >> 16u) & 255u) / 255.;
+#endif
   uint hex = face >> 3u, lf = face & 7u;
   uvec4 low = texelFetch(hexes, texel(2u * hex), 0), high = texelFetch(hexes, texel(2u * hex + 1u), 0);
-  vec3 a = corner(low, high, lf, 0u), b = corner(low, high, lf, 1u), c = corner(low, high, lf, 2u), d = corner(low, high, lf, 3u);
+  vec3 a = cornerAt(low, high, lf, 0u), b = cornerAt(low, high, lf, 1u), c = cornerAt(low, high, lf, 2u), d = cornerAt(low, high, lf, 3u);
 #ifdef CURVED
   vec3 ab = side(hex, lf, 0u, a, b), bc = side(hex, lf, 1u, b, c), cd = side(hex, lf, 2u, c, d), da = side(hex, lf, 3u, d, a);
   vec3 middle = (ab + bc + cd + da) * .5 - (a + b + c + d) * .25;
@@ -51,7 +60,7 @@ void main() {
   vec3 p = mat3(u * along, v * along, w * along) * up;
   vec3 n = cross(mat3(u * dAlong, v * dAlong, w * dAlong) * up, mat3(u * along, v * along, w * along) * dUp);
 #else
-  int k = int(position.x);
+  int k = int(corner);
   vec3 p = k == 0 ? a : k == 1 ? b : k == 2 ? c : k == 3 ? d : (a + b + c + d) * .25;
   place = k == 4 ? vec2(.5) : vec2(k == 1 || k == 2 ? 1. : 0., k >= 2 ? 1. : 0.);
   vec3 n = cross(c - a, d - b);
@@ -103,11 +112,12 @@ void main() { vec4 p = modelViewMatrix * vec4(position, 1.); seen = p.xyz; gl_Po
 
 const shader = (vertexShader, fragmentShader, uniforms = {}, more = {}) => new RawShaderMaterial({glslVersion: GLSL3, vertexShader, fragmentShader, uniforms, side: DoubleSide, ...more});
 
-function dataTexture(numbers, format, type) {
-  const height = Math.max(1, Math.ceil(numbers.length / 4 / WIDTH)), data = new numbers.constructor(4 * WIDTH * height);
+/// `size` numbers per texel.
+function dataTexture(numbers, size, format, internalFormat) {
+  const height = Math.max(1, Math.ceil(numbers.length / size / WIDTH)), data = new numbers.constructor(size * WIDTH * height);
   data.set(numbers);
-  const texture = new DataTexture(data, WIDTH, height, format, type);
-  texture.internalFormat = type === FloatType ? 'RGBA32F' : 'RGBA32UI';
+  const texture = new DataTexture(data, WIDTH, height, format, internalFormat === 'RGBA32F' ? FloatType : UnsignedIntType);
+  texture.internalFormat = internalFormat;
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;
@@ -118,6 +128,9 @@ function withFourth(positions) {
   for (let i = 0; i < positions.length / 3; ++i) padded.set(positions.subarray(3 * i, 3 * i + 3), 4 * i);
   return padded;
 }
+
+const indexTexture = numbers => dataTexture(numbers, 4, RGBAIntegerFormat, 'RGBA32UI');
+const placeTexture = positions => dataTexture(withFourth(positions), 4, RGBAFormat, 'RGBA32F');
 
 /// Instances with arrays that may be replaced by longer ones.
 class Instances {
@@ -141,6 +154,40 @@ class Instances {
   }
 }
 
+/// Flat faces, by triangles of their own: drawn as instances, a face of four triangles costs ten times as much where the processor draws.
+class Faces {
+  constructor(uniforms) {
+    uniforms.faces = {value: null};
+    this.texture = uniforms.faces;
+    this.mesh = new Mesh(new BufferGeometry(), shader(FACE_VERTEX, FACE_FRAGMENT, uniforms));
+    this.mesh.frustumCulled = false;
+    this.mesh.visible = false;
+    this.room = 0;
+  }
+  /// Faces as collectFaces gives them, and four bytes of colour each.
+  set(faces, colors) {
+    this.grow(faces.length);
+    const pairs = new Uint32Array(2 * faces.length), bytes = new Uint32Array(colors.buffer);
+    for (let i = 0; i < faces.length; ++i) { pairs[2 * i] = faces[i]; pairs[2 * i + 1] = bytes[i]; }
+    this.texture.value?.dispose();
+    this.texture.value = dataTexture(pairs, 2, RGIntegerFormat, 'RG32UI');
+    this.mesh.geometry.setDrawRange(0, QUAD_INDEX.length * faces.length);
+    this.mesh.visible = faces.length > 0;
+  }
+  /// Which place of its face each vertex is.
+  grow(count) {
+    if (count <= this.room) return;
+    this.room = Math.ceil(1.3 * count);
+    const corners = new Uint8Array(QUAD_INDEX.length * this.room);
+    for (let i = 0; i < corners.length; ++i) corners[i] = QUAD_INDEX[i % QUAD_INDEX.length];
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    const attribute = new BufferAttribute(corners, 1);
+    attribute.gpuType = IntType;
+    this.mesh.geometry.setAttribute('corner', attribute);
+  }
+}
+
 const SEGMENT = [0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0], SEGMENT_INDEX = [0, 1, 2, 0, 2, 3];
 
 export class Drawing {
@@ -150,20 +197,20 @@ export class Drawing {
     this.renderer.setClearColor(0, 0);
     this.scene = new Scene();
     this.resolution = new Vector2();
-    this.faceUniforms = {hexes: {value: dataTexture(mesh.hexes, RGBAIntegerFormat, UnsignedIntType)}, verts: {value: dataTexture(withFourth(mesh.positions), RGBAFormat, FloatType)}, edges: {value: 1}};
-    this.faces = mesh.mids ? this.makeCurvedFaces(mesh.mids) : new Instances(QUAD, QUAD_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms), 0);
+    this.faceUniforms = {hexes: {value: indexTexture(mesh.hexes)}, verts: {value: placeTexture(mesh.positions)}, edges: {value: 1}};
+    this.faces = mesh.mids ? this.makeCurvedFaces(mesh.mids) : new Faces(this.faceUniforms);
     this.scene.add(this.faces.mesh);
     this.curves = this.makeLines(2.4, 4e-5, 2);
     this.irregular = this.makeLines(1.6, 3e-5, 1);
     this.chosen = this.makeLines(3, 0, 5, {depthTest: false});
     this.plane = this.makeLines(1.6, 0, 4);
-    this.makePoints(mesh);
+    this.makePoints();
     if (mesh.surface) this.makeSurface(mesh.surface);
   }
 
   makeCurvedFaces(mids) {
-    this.faceUniforms.hexMids = {value: dataTexture(mids.ofHex, RGBAIntegerFormat, UnsignedIntType)};
-    this.faceUniforms.mids = {value: dataTexture(withFourth(mids.positions), RGBAFormat, FloatType)};
+    this.faceUniforms.hexMids = {value: indexTexture(mids.ofHex)};
+    this.faceUniforms.mids = {value: placeTexture(mids.positions)};
     return new Instances(GRID, GRID_INDEX, shader(FACE_VERTEX, FACE_FRAGMENT, this.faceUniforms, {defines: {CURVED: 1}}), 0);
   }
 
@@ -175,15 +222,22 @@ export class Drawing {
     return lines;
   }
 
-  makePoints(mesh) {
+  makePoints() {
     const fragment = 'precision highp float; out vec4 pixel; void main() { float r = length(gl_PointCoord - .5); if (r > .5) discard; pixel = vec4(r < .34 ? vec3(1.) : vec3(.1, .11, .14), 1.); }';
-    const geometry = new BufferGeometry(), at = mesh.corners ?? new Uint32Array(), positions = new Float32Array(3 * at.length);
-    at.forEach((v, i) => positions.set(mesh.positions.subarray(3 * v, 3 * v + 3), 3 * i));
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    this.corners = new Points(geometry, shader(POINT_VERTEX, fragment, {size: {value: 7 * this.renderer.getPixelRatio()}, lift: {value: 6e-5}}));
+    this.corners = new Points(new BufferGeometry(), shader(POINT_VERTEX, fragment, {size: {value: 7 * this.renderer.getPixelRatio()}, lift: {value: 6e-5}}));
     this.corners.frustumCulled = false;
     this.corners.renderOrder = 3;
     this.scene.add(this.corners);
+  }
+
+  /// Corners of the surface on what is kept; null = all.
+  setCorners(mesh, keptVerts) {
+    const at = (mesh.corners ?? new Uint32Array()).filter(v => !keptVerts || keptVerts[v]), positions = new Float32Array(3 * at.length);
+    at.forEach((v, i) => positions.set(mesh.positions.subarray(3 * v, 3 * v + 3), 3 * i));
+    this.corners.geometry.dispose();
+    this.corners.geometry = new BufferGeometry();
+    this.corners.geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    this.cornerCount = at.length;
   }
 
   makeSurface(surface) {
@@ -202,7 +256,8 @@ export class Drawing {
 
   /// Faces as collectFaces gives them, and four bytes of colour each.
   setFaces(faces, colors) {
-    this.faces.set(faces.length, {face: {array: faces, size: 1, normalized: false}, color: {array: colors, size: 4, normalized: true}});
+    if (this.faces instanceof Faces) this.faces.set(faces, colors);
+    else this.faces.set(faces.length, {face: {array: faces, size: 1, normalized: false}, color: {array: colors, size: 4, normalized: true}});
   }
 
   /// Segments as 6 numbers each, colours as 4 bytes.

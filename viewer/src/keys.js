@@ -58,7 +58,7 @@ export function bindKeys(app) {
   addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || document.querySelector('dialog[open]')) return;
     const {target} = event;
-    if (target.matches('input[type=search], textarea, select')) return;
+    if (target.matches?.('input[type=search], textarea, select')) return;
     if (target === app.canvas && onDrawing(app, event)) return event.preventDefault();
     const digit = LOOKS[event.code?.replace('Digit', '')];
     if (digit && event.code.startsWith('Digit')) return app.orbit.look(digit[event.altKey ? 1 : 0]);

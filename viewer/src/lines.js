@@ -1,5 +1,5 @@
 // Lines of a view: curves, irregular edges, the outline of a hex, the cutting plane in the box. Each gives {segments, colors}.
-import {categoryColor, valenceColor} from './colors.js';
+import {curveColor, HIGHLIGHT, isDark, valenceColor} from './colors.js';
 import {midNode} from './data.js';
 import {EDGES} from './topology.js';
 
@@ -10,7 +10,7 @@ function makeLines(count, pointsOf, colorOf) {
     const points = pointsOf(i), color = colorOf(i);
     for (let k = 1; k < points.length; ++k) {
       segments.push(...points[k - 1], ...points[k]);
-      colors.push(color[0], color[1], color[2], 255);
+      colors.push(color[0], color[1], color[2], color[3] ?? 255);
     }
   }
   return {segments: new Float32Array(segments), colors: new Uint8Array(colors)};
@@ -29,8 +29,16 @@ function edgePoints(mesh, v, w) {
 }
 const CURVE_STEPS = 8;
 
-export const curveLines = mesh => makeLines(mesh.curves ? mesh.curves.length / 2 : 0, i => edgePoints(mesh, mesh.curves[2 * i], mesh.curves[2 * i + 1]),
-  i => mesh.curveIds[i] === 0 ? [30, 34, 42] : categoryColor(mesh.curveIds[i] - 1).map(x => x * 0.6));
+/// Faint where the hexes are gone.
+export function curveLines(mesh, keptVerts, {hiddenCurves, chosenCurve}) {
+  const {curves, curveIds} = mesh, shown = [];
+  curveIds?.forEach((id, i) => { if (!hiddenCurves.has(id - 1)) shown.push(i); });
+  const isKept = i => !keptVerts || (keptVerts[curves[2 * i]] && keptVerts[curves[2 * i + 1]]);
+  return makeLines(shown.length, i => edgePoints(mesh, curves[2 * shown[i]], curves[2 * shown[i] + 1]), i => {
+    const curve = curveIds[shown[i]] - 1, isChosen = curve === chosenCurve && curve >= 0;
+    return [...(isChosen ? HIGHLIGHT : curveColor(curve)), isChosen || isKept(shown[i]) ? 255 : 70];
+  });
+}
 
 /// `groups` are those shown, as `valence` and whether on the boundary: "3", "boundary 1".
 export function irregularLines(mesh, edges, groups) {
@@ -59,5 +67,5 @@ export function planeOutline(frame, {normal, at}) {
   const u = points[0].map((x, k) => x - middle[k]), v = [normal[1] * u[2] - normal[2] * u[1], normal[2] * u[0] - normal[0] * u[2], normal[0] * u[1] - normal[1] * u[0]];
   const angle = p => Math.atan2(...[v, u].map(w => w.reduce((sum, x, k) => sum + x * (p[k] - middle[k]), 0)));
   points.sort((a, b) => angle(a) - angle(b));
-  return makeLines(points.length, i => [points[i], points[(i + 1) % points.length]], () => [31, 95, 191]);
+  return makeLines(points.length, i => [points[i], points[(i + 1) % points.length]], () => isDark() ? [127, 176, 255] : [31, 95, 191]);
 }

@@ -4,14 +4,18 @@ import {readMesh} from './data.js';
 import {findNeighbors} from './topology.js';
 
 const dark = matchMedia('(prefers-color-scheme: dark)');
-const followTheme = () => { document.documentElement.dataset.theme = dark.matches ? 'dark' : 'light'; };
+let app = null;
+const followTheme = () => {
+  document.documentElement.dataset.theme = dark.matches ? 'dark' : 'light';
+  app?.refresh('lines', 'panel');
+};
 followTheme();
 dark.addEventListener('change', followTheme);
 
 async function start() {
   const mesh = await readMesh();
   mesh.neighbors = findNeighbors(mesh.hexes, mesh.positions.length / 3);
-  const app = new App(mesh);
+  app = new App(mesh);
   app.start();
   // Two more frames: then the first picture has been shown.
   requestAnimationFrame(() => requestAnimationFrame(() => { document.body.dataset.ready = Math.round(performance.now()); }));

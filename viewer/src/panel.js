@@ -19,10 +19,12 @@ export class Panel {
     this.writeHead();
     this.bindButtons();
     this.bindSliders();
+    this.bindHistogram();
     this.bindSwitches();
     this.listColorings();
     this.listRegions();
     this.listPatches();
+    this.listCurves();
     this.writeVerdict();
   }
 
@@ -61,7 +63,7 @@ export class Panel {
   switchTheme() {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
-    this.follow();
+    this.app.refresh('lines', 'panel');
   }
 
   showLink() {
@@ -81,6 +83,24 @@ export class Panel {
     element('low').max = 49;
     element('high').addEventListener('input', () => app.setHigh(number('high')));
     element('opacity').addEventListener('input', () => app.change('frame', {opacity: number('opacity')}));
+  }
+
+  /// A drag over it keeps the hexes of these bins.
+  bindHistogram() {
+    const {app} = this, canvas = element('histogram');
+    const binAt = event => {
+      const box = canvas.getBoundingClientRect();
+      return Math.min(50, Math.max(0, Math.floor((event.clientX - box.left) / box.width * 51)));
+    };
+    let first = null;
+    canvas.addEventListener('pointerdown', event => {
+      canvas.setPointerCapture(event.pointerId);
+      first = binAt(event);
+      app.setRange(first, first);
+    });
+    canvas.addEventListener('pointermove', event => { if (first !== null) app.setRange(first, binAt(event)); });
+    for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { first = null; });
+    canvas.addEventListener('dblclick', () => app.setRange(0, 50));
   }
 
   bindSwitches() {
@@ -120,6 +140,18 @@ export class Panel {
     element('find').addEventListener('input', () => {
       const text = element('find').value.toLowerCase();
       for (const entry of element('patches').children) entry.hidden = !patches[entry.dataset.patch].name.toLowerCase().includes(text);
+    });
+  }
+
+  listCurves() {
+    const {app} = this, {curves} = app.mesh.summary;
+    element('curves-section').hidden = curves.every(curve => curve.edges === 0);
+    curves.forEach(({name, edges, length}, i) => {
+      if (edges === 0) return;
+      const entry = this.listEntry(name, categoryColor(i), `${count(edges)}, ${measure(length)}`,
+        isShown => { this.toggle(app.state.hiddenCurves, i, isShown); app.refresh('lines'); }, () => app.chooseCurve(i));
+      entry.dataset.curve = i;
+      element('curve-list').append(entry);
     });
   }
 
@@ -186,6 +218,11 @@ export class Panel {
       entry.querySelector('input').checked = !state.hiddenPatches.has(patch);
       entry.classList.toggle('chosen', patch === state.chosenPatch);
     }
+    for (const entry of element('curve-list').children) {
+      const curve = Number(entry.dataset.curve);
+      entry.querySelector('input').checked = !state.hiddenCurves.has(curve);
+      entry.classList.toggle('chosen', curve === state.chosenCurve);
+    }
     this.drawHistogram();
     this.followLegend();
     this.followValences();
@@ -232,6 +269,7 @@ export class Panel {
         make('small', {textContent: count(number)})));
     }
     if (!box.children.length) box.append(make('small', {textContent: 'none: every edge is regular'}));
+    if (app.mesh.summary.sample) box.append(make('small', {textContent: 'Of edges whose hexes are all on this page.'}));
   }
 
   /// What stands over the drawing and moves with the camera: axes, handle.

@@ -1,7 +1,7 @@
 // Places on a face, and the triangles between them that it is drawn and picked by.
 
-/// Its corners and its centre.
-export const QUAD = [0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0], QUAD_INDEX = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4];
+/// Four triangles about the centre, which is place 4; the others are its corners.
+export const QUAD_INDEX = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4];
 
 /// The same for faces of second order: a grid of places on them.
 export const DIVISIONS = 6, GRID = [], GRID_INDEX = [];

@@ -51,8 +51,8 @@ function pairFaces({numVerts, offset, face, opposite, greater, lesser}) {
 }
 
 /// Edges inside with other than four hexes about them, edges of the boundary with other than two: {verts: 2 per edge, valence, onBoundary}.
-export function findIrregularEdges(hexes, neighbors, numVerts) {
-  const n = hexes.length / 8, offset = new Uint32Array(numVerts + 1);
+export function findIrregularEdges({hexes, neighbors, marked, positions}) {
+  const n = hexes.length / 8, numVerts = positions.length / 3, offset = new Uint32Array(numVerts + 1);
   const ends = (h, e) => { const a = hexes[8 * h + e[0]], b = hexes[8 * h + e[1]]; return a < b ? [a, b] : [b, a]; };
   for (let h = 0; h < n; ++h) for (const e of EDGES) ++offset[Math.min(hexes[8 * h + e[0]], hexes[8 * h + e[1]]) + 1];
   for (let v = 0; v < numVerts; ++v) offset[v + 1] += offset[v];
@@ -61,7 +61,7 @@ export function findIrregularEdges(hexes, neighbors, numVerts) {
     for (let le = 0; le < 12; ++le) {
       const a = hexes[8 * h + EDGES[le][0]], b = hexes[8 * h + EDGES[le][1]], at = next[a < b ? a : b]++;
       other[at] = a < b ? b : a;
-      for (const lf of EDGE_FACES[le]) if (neighbors[6 * h + lf] < 0) outer[at] = 1;
+      for (const lf of EDGE_FACES[le]) if (neighbors[6 * h + lf] < 0) outer[at] |= marked[h] >> lf & 1 ? BOUNDARY : ABSENT;
     }
   const verts = [], valence = [], onBoundary = [];
   for (let v = 0; v < numVerts; ++v) {
@@ -71,10 +71,12 @@ export function findIrregularEdges(hexes, neighbors, numVerts) {
       if (entry) { ++entry.count; entry.outer |= outer[i]; } else counts.set(other[i], {count: 1, outer: outer[i]});
     }
     for (const [w, entry] of counts)
-      if (entry.count !== (entry.outer ? 2 : 4)) { verts.push(v, w); valence.push(entry.count); onBoundary.push(entry.outer); }
+      if (!(entry.outer & ABSENT) && entry.count !== (entry.outer ? 2 : 4)) { verts.push(v, w); valence.push(entry.count); onBoundary.push(entry.outer); }
   }
   return {verts, valence, onBoundary};
 }
+/// Beside an edge lies the boundary, or hexes that the page has not.
+const BOUNDARY = 1, ABSENT = 2;
 const EDGE_FACES = EDGES.map(([a, b]) => FACES.flatMap((f, lf) => f.includes(a) && f.includes(b) ? [lf] : []));
 
 /// Which hexes a state leaves: {kept: 1 per hex, count}.
@@ -97,6 +99,14 @@ export function selectHexes(mesh, state) {
   return {kept, count};
 }
 
+/// Vertices of kept hexes; null when all are kept.
+export function findKeptVerts({hexes, numHexes, positions}, {kept, count}) {
+  if (count === numHexes) return null;
+  const verts = new Uint8Array(positions.length / 3);
+  for (let h = 0; h < numHexes; ++h) if (kept[h]) for (let k = 0; k < 8; ++k) verts[hexes[8 * h + k]] = 1;
+  return verts;
+}
+
 /// A cut's plane, its place measured between the mesh's extremes along the normal: points p with normal . p = at.
 export function cutPlane(mesh, normal, offset) {
   const key = normal.join();
@@ -116,8 +126,15 @@ export function cutPlane(mesh, normal, offset) {
 
 export const statePlane = (mesh, {cut, offset}) => cutPlane(mesh, cut.normal, offset);
 
-/// Faces of kept hexes that no other kept one covers, as 8 hex + local face; those of hidden patches are left out.
-export function collectFaces(mesh, kept, hiddenPatches) {
+/// Whether nothing lets people look behind the skin and the slices of a page that holds a part of a mesh.
+export function isClosed({cut, peel, low, high, hiddenRegions, hiddenPatches}) {
+  return cut?.kind !== 'view' && peel === 0 && low === 0 && high === 50 && hiddenRegions.size === 0 && hiddenPatches.size === 0;
+}
+
+/// Faces of kept hexes that no other kept one covers, as 8 hex + local face; those of hidden patches are left out, and, where the kept ones are
+/// closed, those towards hexes that the page has not: nobody sees them.
+export function collectFaces(mesh, kept, state) {
+  const {hiddenPatches} = state, isHollow = mesh.summary.sample && isClosed(state);
   let faces = new Uint32Array(1 << 16), count = 0;
   const neighbors = mesh.neighbors, hides = mesh.patches && hiddenPatches.size > 0;
   for (let h = 0; h < mesh.numHexes; ++h) {
@@ -128,7 +145,7 @@ export function collectFaces(mesh, kept, hiddenPatches) {
     for (let lf = 0; lf < 6; ++lf) {
       const isMarked = bits >> lf & 1, other = neighbors[6 * h + lf], patch = isMarked && mesh.patches ? mesh.patches[index] - 1 : -1;
       index += isMarked;
-      if (other >= 0 && kept[other]) continue;
+      if (other >= 0 ? kept[other] : isHollow && !isMarked) continue;
       if (hides && patch >= 0 && hiddenPatches.has(patch)) continue;
       faces[count++] = 8 * h + lf;
     }
