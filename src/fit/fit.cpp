@@ -6,6 +6,7 @@
 #include "hexwright/fit/fit.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -54,7 +55,8 @@ constexpr double kCostlyFloor = 0.4;  // the joint lift does not start from less
 // Corners are single points that users look for: they are to be met within this share of the
 // surface's diagonal, a little less than what the judge allows.
 constexpr double kCornerMiss = 0.00045;
-constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
+constexpr double kLittleLower = 0.95;  // of the least, for a lift of all the others
+constexpr double kMiss = 0.02;         // distance from the target, in h, that is reported
 
 // The first hex with a corner determinant that is not positive.
 HexId find_inverted(const HexMesh& mesh) {
@@ -97,11 +99,16 @@ struct Attempt {
 
 }  // namespace
 
+struct Quality {
+  double least = 0;      // scaled Jacobian
+  double shortfall = 0;  // the sum of (goal - scaled Jacobian)^2 over hexes below the lift's goal
+};
+
 // What the lift is measured by, and gone back to where it leads no higher.
 struct Unlifted {
   IdVector<VertId, Vec3> positions;
   IdVector<VertId, double> arc, offset;
-  double least = 0;  // scaled Jacobian
+  Quality quality;
   std::vector<HexId> unproven;
 };
 
@@ -170,11 +177,11 @@ class Fitter {
     std::shared_ptr<FitMemory> memory;
     if (is_lifting()) memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
-    const double least = least_quality(result);
-    const bool is_poor = is_lifting() && least < options_.lift_goal;
+    const Quality quality = measure_quality(result);
+    const bool is_poor = is_lifting() && quality.least < options_.lift_goal;
     if (is_poor)
-      memory->unlifted = {result.state.mesh.positions, result.state.arc, result.state.offset, least,
-                          report_.unproven};
+      memory->unlifted = {result.state.mesh.positions, result.state.arc, result.state.offset,
+                          quality, report_.unproven};
     FitResult done = conclude(std::move(result));
     if (is_poor) done.memory = std::move(memory);
     return done;
@@ -220,8 +227,11 @@ class Fitter {
   }
 
   // The lift starts before the last passes of a fit without it, some of which may have gained more.
+  // A least that is a little lower is no loss where all the others rise.
   void go_back_if_lower(Attempt& a, const Unlifted& unlifted) {
-    if (least_quality(a) >= unlifted.least) return;
+    const Quality quality = measure_quality(a), before = unlifted.quality;
+    const bool is_higher = quality.shortfall < before.shortfall;
+    if (quality.least >= (is_higher ? kLittleLower : 1) * before.least) return;
     if (report_.unproven.size() < unlifted.unproven.size()) return;
     a.state.mesh.positions = unlifted.positions;
     a.state.arc = unlifted.arc;
@@ -367,9 +377,16 @@ class Fitter {
     relax::lift_jointly(a.state, target(a), {tolerance, options_.lift_goal, is_last}, context_);
   }
 
-  double least_quality(const Attempt& a) const {
-    const auto quality = compute_scaled_jacobians(a.state.mesh);
-    return *std::min_element(quality.begin(), quality.end());
+  double least_quality(const Attempt& a) const { return measure_quality(a).least; }
+
+  Quality measure_quality(const Attempt& a) const {
+    Quality result = {.least = std::numeric_limits<double>::infinity()};
+    for (const double quality : compute_scaled_jacobians(a.state.mesh)) {
+      result.least = std::min(result.least, quality);
+      const double shortfall = std::max(0.0, options_.lift_goal - quality);
+      result.shortfall += shortfall * shortfall;
+    }
+    return result;
   }
 
   // The average, as far as the least allows; the best offsets follow the sliding vertices.

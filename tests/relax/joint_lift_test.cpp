@@ -206,7 +206,7 @@ TEST(JointLift, KeepsTheVolume) {
 }
 
 // With so little room its first passes cost more than it brings.
-TEST(JointLift, NeverLowersTheLeast) {
+TEST(JointLift, TakesBackWhatLowersTheLeast) {
   std::mt19937 rng(6);
   const Target target = wrap_target(turned_plate(rng));
   FitOptions options = high_goal();

@@ -3,17 +3,12 @@
 
 Usage: check_mesh_test.py HEXWRIGHT FOLDER-OF-MODELS [OPTIONS OF MESH]. Exit code 77 (skipped) without checkMesh.
 """
-import re
-import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import openfoam
-
-SKIPPED = 77
-SURFACES = {".obj", ".off", ".stl", ".ply"}
+import support
 
 
 def judge(hexwright: str, model: Path, side: str, options: list[str]) -> tuple[bool, str]:
@@ -22,25 +17,19 @@ def judge(hexwright: str, model: Path, side: str, options: list[str]) -> tuple[b
         case = Path(folder)
         (case / "constant").mkdir()
         margin = ["--margin", "0.2L"] if side == "outside" else []
-        subprocess.run([hexwright, "mesh", model, "-o", case / "constant/polyMesh", "-q", "--side", side, *margin, *options],
-                       timeout=600, stderr=subprocess.DEVNULL)
-        if not (case / "constant/polyMesh").exists():
-            return False, "no mesh"
+        try:
+            support.make_mesh(hexwright, model, case / "constant/polyMesh", ["--side", side, *margin, *options], may_miss_gate=True)
+        except AssertionError as error:
+            return False, str(error)
         said = openfoam.check_mesh(case, "-allTopology")
-    found = {name: re.search(pattern, said) for name, pattern in
-             {"cells": r"cells: +(\d+)", "non-orthogonality": r"non-orthogonality Max: ([0-9.]+)",
-              "skewness": r"Max skewness = ([0-9.]+)"}.items()}
-    figures = ", ".join(f"{name} {match[1]}" for name, match in found.items() if match)
-    failures = "; ".join(line.strip(" *") for line in said.splitlines() if line.startswith(" ***"))
-    return "\nMesh OK." in said, f"{figures} {failures}".strip()
+    figures = ", ".join(f"{name} {value:g}" for name, value in openfoam.read_figures(said).items())
+    return openfoam.is_content(said), f"{figures} {'; '.join(openfoam.list_failures(said))}".strip()
 
 
 def main() -> int:
-    if not shutil.which("checkMesh"):
-        print("skipped: OpenFOAM (checkMesh) is not installed")
-        return SKIPPED
-    models = sorted(p for p in Path(sys.argv[2]).iterdir() if p.suffix.lower() in SURFACES)
-    assert models, f"no model in {sys.argv[2]}"
+    if support.is_missing(programs=("checkMesh",)):
+        return support.SKIPPED
+    models = support.list_models(sys.argv[2])
     failed = []
     for model in models:
         for side in ("inside", "outside"):
@@ -48,8 +37,7 @@ def main() -> int:
             print(f"{model.name}, {side}: {figures}", flush=True)
             if not is_good:
                 failed.append(f"{model.name}, {side}")
-    print(f"{2 * len(models) - len(failed)} of {2 * len(models)} meshes pass")
-    assert not failed, failed
+    support.report(failed, 2 * len(models))
     return 0
 
 

@@ -3,9 +3,8 @@
 
 Usage: examples_test.py HEXWRIGHT SOURCE_DIR EXAMPLE. Exit code 77 (skipped) when what the example needs is not installed.
 """
-import importlib.util
+import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -13,8 +12,8 @@ import tempfile
 from pathlib import Path
 
 import openfoam
+import support
 
-SKIPPED = 77
 #: Modules and programs; the picture; what is printed, and between which values the number in it lies. Of the flow about a
 #: sphere it is the largest error of the pressure, in percent.
 EXAMPLES = {
@@ -29,20 +28,23 @@ EXAMPLES = {
 def main() -> int:
     hexwright, source, name = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
     modules, programs, picture, pattern, (low, high) = EXAMPLES[name]
-    missing = [m for m in modules if importlib.util.find_spec(m) is None] + [p for p in programs if not shutil.which(p)]
-    if missing:
-        print(f"skipped: {missing[0]} is not installed")
-        return SKIPPED
+    if support.is_missing(modules, programs):
+        return support.SKIPPED
     with tempfile.TemporaryDirectory() as temporary:
-        examples = Path(temporary) / "examples"
+        examples, tools = Path(temporary) / "examples", Path(temporary) / "bin"
+        tools.mkdir()
+        (tools / "hexwright").symlink_to(Path(hexwright).resolve())
+        # A link to an interpreter of a virtual environment would leave its packages behind.
+        (tools / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
+        (tools / "python3").chmod(0o755)
+        environment = openfoam.environment()
+        environment["PATH"] = os.pathsep.join([str(tools), environment["PATH"]])
         shutil.copytree(source / "examples", examples)
         commands = re.search(r"```\n(.*?)```", (examples / name / "README.md").read_text(), re.S)[1].splitlines()
         output = ""
         for command in commands:
-            words = shlex.split(command)
-            words[0] = {"hexwright": hexwright, "python3": sys.executable}.get(words[0], words[0])
-            done = subprocess.run(words, cwd=examples / name, env=openfoam.environment(),
-                                  capture_output=True, text=True, timeout=300)
+            done = subprocess.run(["bash", "-c", command], cwd=examples / name, env=environment, capture_output=True, text=True,
+                                  timeout=300)
             assert done.returncode == 0, f"{command}\n{done.stdout[-3000:]}{done.stderr[-3000:]}"
             output += done.stdout
         value = float(re.search(pattern, output)[1])

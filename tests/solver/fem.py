@@ -1,18 +1,11 @@
 """Meshes of hexwright in scikit-fem, and the problems that are solved on them."""
 import contextlib
 import io
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import skfem
 from skfem.helpers import dot, grad
-
-
-def make_mesh(hexwright, surface, output: Path, options):
-    """The gate may object (exit code 1) as long as there is a mesh."""
-    done = subprocess.run([hexwright, "mesh", surface, "-o", output, "-q", *options], timeout=600, stderr=subprocess.PIPE)
-    assert done.returncode in (0, 1) and Path(output).exists(), done.stderr
 
 
 def basis_of(path: Path):

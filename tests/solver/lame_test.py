@@ -5,13 +5,13 @@ Usage: lame_test.py HEXWRIGHT [STEP-FILE]. Exit code 77 (skipped) without Calcul
 does not read the CAD file of the cylinder that is given instead of triangles.
 With --table it prints a table of variants on the cylinder instead.
 """
-import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-SKIPPED = 77
+import support
+
 INNER, OUTER, PRESSURE, MODULUS, POISSON = 1.0, 2.0, 1.0, 1000.0, 0.3
 
 
@@ -128,8 +128,7 @@ def measure(hexwright: str, folder: Path, body, options: list[str], element: str
         surface = folder / "body.obj"
         body.write(surface)
     mesh = folder / "mesh.inp"
-    run = [hexwright, "mesh", surface, "-o", mesh, "-q", *options]
-    subprocess.run(run, check=True, timeout=300, stderr=subprocess.DEVNULL)
+    support.make_mesh(hexwright, surface, mesh, options)
     found = calculix.solve(write_deck(folder, body, element))
     nodes = calculix.read_nodes(mesh)
     numbers = sorted(found["DISP"])
@@ -184,22 +183,15 @@ def check(hexwright: str, step: Path | None):
 
 
 def main() -> int:
-    try:
-        import numpy  # noqa: F401
-    except ImportError:
-        print("skipped: numpy is not installed")
-        return SKIPPED
-    if not shutil.which("ccx"):
-        print("skipped: CalculiX (ccx) is not installed")
-        return SKIPPED
-    sys.path.insert(0, str(Path(__file__).parent))
+    if support.is_missing(("numpy",), ("ccx",)):
+        return support.SKIPPED
     if "--table" in sys.argv:
         print_table(sys.argv[1])
         return 0
     step = Path(sys.argv[2]) if len(sys.argv) > 2 else None
     if step and "scripts/setup cad" in subprocess.run([sys.argv[1], "inspect", step], capture_output=True, text=True).stderr:
         print("skipped: built without OpenCASCADE")
-        return SKIPPED
+        return support.SKIPPED
     check(sys.argv[1], step)
     return 0
 

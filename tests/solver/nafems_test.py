@@ -4,16 +4,15 @@
 Usage: nafems_test.py HEXWRIGHT [NAME ...]. Exit code 77 (skipped) without CalculiX (ccx) or numpy.
 
 Sources: NAFEMS, "The Standard NAFEMS Benchmarks", TNSB rev. 3, 1990 (LE1, LE10, LE11, FV52); Kirsch 1898 and, for a plate of
-finite width, the fit of Heywood 1952 (K = 3.01 for a hole of a twentieth of the width).
+finite width, the fit of Heywood 1952.
 """
 import math
-import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-SKIPPED = 77
+import support
+
 STEEL = "*ELASTIC\n210000., 0.3\n"
 
 
@@ -76,7 +75,7 @@ class CylinderTaperSphere(Problem):
     """LE11: heated by T = r + z between two planes."""
     options = ["--tolerance", "0.2%"]
     material = STEEL + "*EXPANSION\n2.3E-4\n"
-    point, stress, component, expected, tolerance = (1, 0, 0), "sigma_zz at A", 2, -105, 0.03
+    point, stress, component, expected, tolerance = (1, 0, 0), "sigma_zz at A", 2, -105, 0.01
 
     def write(self, path):
         import bodies
@@ -100,7 +99,8 @@ class CylinderTaperSphere(Problem):
 class PlateWithHole(Problem):
     """In plane strain, pulled along x."""
     options = ["--tolerance", "0.05%", "--refine", "cylinder:0,0,0,0,0,1,1.5=0.2"]
-    point, stress, component, expected, tolerance = (0, 1, 0), "stress concentration", 0, 3.01, 0.01
+    width = 1 / 20  # of the hole, as a share of the plate's
+    point, stress, component, expected, tolerance = (0, 1, 0), "stress concentration", 0, (2 + (1 - width)**3) / (1 - width), 0.002
 
     def write(self, path):
         import bodies
@@ -144,8 +144,7 @@ def solve(hexwright: str, name: str, folder: Path) -> tuple[int, dict]:
     problem = PROBLEMS[name]()
     surface, mesh, deck = folder / "body.obj", folder / "mesh.inp", folder / "case.inp"
     problem.write(surface)
-    subprocess.run([hexwright, "mesh", surface, "-o", mesh, "-q", "--order", "2", *problem.options], check=True,
-                   timeout=300, stderr=subprocess.DEVNULL)
+    support.make_mesh(hexwright, surface, mesh, ["--order", "2", *problem.options])
     mesh.write_text(mesh.read_text().replace("TYPE=C3D20,", f"TYPE={problem.element},"))
     nodes = calculix.read_nodes(mesh)
     body = problem.deck(nodes, lambda set_name: calculix.set_nodes(mesh, set_name))
@@ -155,14 +154,8 @@ def solve(hexwright: str, name: str, folder: Path) -> tuple[int, dict]:
 
 
 def main() -> int:
-    try:
-        import numpy  # noqa: F401
-    except ImportError:
-        print("skipped: numpy is not installed")
-        return SKIPPED
-    if not shutil.which("ccx"):
-        print("skipped: CalculiX (ccx) is not installed")
-        return SKIPPED
+    if support.is_missing(("numpy",), ("ccx",)):
+        return support.SKIPPED
     is_good = True
     for name in sys.argv[2:] or PROBLEMS:
         with tempfile.TemporaryDirectory() as folder:
@@ -170,7 +163,7 @@ def main() -> int:
         for what, (value, wanted, tolerance) in results.items():
             error = value / wanted - 1
             is_good = is_good and abs(error) < tolerance
-            print(f"{name}, {hexes} hexes, {what}: {value:.4f}, {100 * error:+.2f} % of {wanted}", flush=True)
+            print(f"{name}, {hexes} hexes, {what}: {value:.4f}, {100 * error:+.2f} % of {wanted:.6g}", flush=True)
     assert is_good
     return 0
 

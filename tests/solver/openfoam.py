@@ -1,5 +1,6 @@
 """Runs programs of OpenFOAM on a case whose mesh hexwright wrote."""
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -25,3 +26,22 @@ def check_mesh(case: Path, *options: str) -> str:
     run = subprocess.run(["checkMesh", "-case", str(case), *options], capture_output=True, text=True,
                          env=environment(), check=False)
     return run.stdout + run.stderr
+
+
+FIGURES = {"cells": r"cells: +(\d+)", "non-orthogonality": r"non-orthogonality Max: ([0-9.e+-]+)",
+           "mean non-orthogonality": r"non-orthogonality Max: [0-9.e+-]+ average: ([0-9.e+-]+)",
+           "skewness": r"Max skewness = ([0-9.e+-]+)"}
+
+
+def read_figures(said: str) -> dict[str, float]:
+    """Those that checkMesh gives."""
+    found = {name: re.search(pattern, said) for name, pattern in FIGURES.items()}
+    return {name: float(match[1]) for name, match in found.items() if match}
+
+
+def is_content(said: str) -> bool:
+    return "\nMesh OK." in said
+
+
+def list_failures(said: str) -> list[str]:
+    return [line.strip(" *") for line in said.splitlines() if line.startswith(" ***")]

@@ -45,6 +45,21 @@ bool holds_wedge(const HexMesh& mesh, const HexNeighbors& neighbors, HexId h, do
 
 double least_quality(const Round& round) { return round.verdict.quality.min_scaled_jacobian; }
 
+/// Of hexes whose Jacobian may vanish inside.
+std::size_t num_unproven(const Round& round) { return round.fit.report.unproven.size(); }
+
+/// A solver refuses what is not positive inside; a poor hex it takes.
+bool is_sounder(const Round& a, const Round& b) {
+  if (num_unproven(a) != num_unproven(b)) return num_unproven(a) < num_unproven(b);
+  return least_quality(a) > least_quality(b);
+}
+
+Vec3 center_of(const HexMesh& mesh, HexId h) {
+  Vec3 center;
+  for (const Vec3& p : mesh.corners(h)) center += p / 8;
+  return center;
+}
+
 bool is_any(const std::vector<char>& marks) {
   return std::find(marks.begin(), marks.end(), 1) != marks.end();
 }
@@ -64,6 +79,7 @@ std::optional<CompleteResult> next_try(const RoundInput& input, const Round& rou
                                        std::span<const Vec3> missed, std::size_t num_spent) {
   for (const double share : kShares) {
     std::vector<Vec3> places = find_poor_places(round.fit.mesh, share * goal);
+    for (HexId h : round.fit.report.unproven) places.push_back(center_of(round.fit.mesh, h));
     places.insert(places.end(), missed.begin(), missed.end());
     const std::vector<char> marks = mark_splittable(input, round.grid, places);
     if (!is_any(marks)) return {};
@@ -89,9 +105,7 @@ std::vector<Vec3> find_poor_places(const HexMesh& mesh, double goal) {
     if (quality[h] >= goal) continue;
     if (!neighbors) neighbors = compute_hex_neighbors(mesh);
     if (holds_wedge(mesh, *neighbors, h, goal)) continue;
-    Vec3 center;
-    for (const Vec3& p : mesh.corners(h)) center += p / 8;
-    places.push_back(center);
+    places.push_back(center_of(mesh, h));
   }
   return places;
 }
@@ -104,7 +118,8 @@ Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& resul
   for (const RoundRecord& record : result.rounds) num_spent += record.num_background;
   Round best = lifted, current = std::move(lifted);
   for (int k = 0; k < kMostTries && result.num_rounds < input.options.max_rounds; ++k) {
-    if (least_quality(best) >= goal || best.verdict.quality.num_inverted > 0) break;
+    const bool is_good = least_quality(best) >= goal && num_unproven(best) == 0;
+    if (is_good || best.verdict.quality.num_inverted > 0) break;
     std::vector<Vec3> missed;
     if (!meets_no_less(input, best, current)) missed = collect_places(input, current, false);
     std::optional<CompleteResult> next = next_try(input, current, goal, missed, num_spent);
@@ -114,7 +129,7 @@ Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& resul
     num_spent += current.record.num_background;
     ++result.num_rounds;
     if (current.fit.mesh.num_hexes() > most_hexes || !meets_no_less(input, best, current) ||
-        least_quality(current) <= least_quality(best) || !keeps_budget(input, best, current))
+        !is_sounder(current, best) || !keeps_budget(input, best, current))
       continue;
     best = current;
     result.best_round = result.num_rounds;
