@@ -1,6 +1,7 @@
 // hexwright picture: a mesh as PNG, one view or a sheet of several.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "hexwright/io/mesh_io.h"
 #include "hexwright/render/picture_sheet.h"
@@ -14,22 +15,23 @@ namespace {
 
 struct PictureCommand {
   std::string input, output, cut = "auto";
-  double cut_at = 0.5;
+  std::optional<double> cut_at;
   bool as_sheet = false, by_patch = false;
   int width = 0, height = 0;  ///< 0 = of the kind of picture
 };
 
 /// `none` keeps the direction of the automatic view, so that pictures with and without cut compare.
+/// Patches lie outside: they are cut only when that is asked for.
 PictureOptions choose_view(const PictureCommand& cmd, const HexMesh& mesh) {
   PictureOptions options;
-  if (cmd.cut == "none") {
+  if (cmd.cut == "none" || (cmd.cut == "auto" && cmd.by_patch && !cmd.cut_at)) {
     options = make_default_view(mesh);
     options.cut.reset();
   } else if (cmd.cut == "auto") {
     options = make_default_view(mesh);
-    options.cut->offset = cmd.cut_at;
+    options.cut->offset = cmd.cut_at.value_or(0.5);
   } else {
-    options = make_cut_view(cmd.cut[0] - 'x', cmd.cut_at);
+    options = make_cut_view(cmd.cut[0] - 'x', cmd.cut_at.value_or(0.5));
   }
   if (cmd.by_patch) options.colors = PictureColors::Patches;
   return options;
@@ -64,12 +66,12 @@ void add_picture_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus")
       ->required();
   sub->add_option("-o,--output", cmd->output, "Picture: .png")->required();
-  sub->add_option("--cut", cmd->cut, "Axis across which the mesh is cut open")
+  sub->add_option("--cut", cmd->cut,
+                  "Axis across which the mesh is cut open; auto: none with --by-patch")
       ->check(CLI::IsMember({"auto", "x", "y", "z", "none"}))
       ->capture_default_str();
-  sub->add_option("--cut-at", cmd->cut_at, "Place of the cut between the box's ends")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  sub->add_option("--cut-at", cmd->cut_at, "Place of the cut between the box's ends [0.5]")
+      ->check(CLI::Range(0.0, 1.0));
   sub->add_flag("--by-patch", cmd->by_patch, "Colours and names of patches instead of quality");
   sub->add_flag("--sheet", cmd->as_sheet,
                 "Several views in one picture: outside, three cuts, worst hex, patches")

@@ -19,6 +19,7 @@ from . import _convert, _core
 from ._errors import BadInput, HexwrightError, HexwrightWarning
 from ._inputs import PathLike, as_surface, is_path, to_array
 from ._verdict import judge
+from ._view import ViewPage, is_notebook
 
 if TYPE_CHECKING:
     from ._grid import Grid
@@ -211,8 +212,9 @@ class HexMesh:
             told = ", ".join(f"'{given}' is '{written}'" for given, written in changed)
             warnings.warn(f"{os.fspath(path)}: names that the format cannot take: {told}", HexwrightWarning, stacklevel=2)
 
-    def view(self, path: PathLike | None = None, surface: Any = None, open: bool = True) -> str:
-        """Writes a page to look into the mesh with, and opens it in a browser: cut, peel, filter by quality, names.
+    def view(self, path: PathLike | None = None, surface: Any = None, open: bool | None = None) -> ViewPage:
+        """Writes a page to look into the mesh with, and opens it in a browser: cut, peel, filter by quality, names. In a
+        notebook it is shown below the cell that ends with this call.
 
         The same page as ``hexwright view`` writes. The file appears whole or not at all.
 
@@ -222,12 +224,12 @@ class HexMesh:
             The page (.html), which needs no network; in a new folder for temporary files when left out.
         surface : as for ``mesh``, optional
             Drawn over the mesh.
-        open : bool
-            Whether to open it.
+        open : bool, optional
+            Whether to open it in a browser; when left out, unless this is a notebook.
 
         Returns
         -------
-        str
+        ViewPage
             The page's path.
         """
         against = None if surface is None else as_surface(surface)._core
@@ -235,9 +237,9 @@ class HexMesh:
         page = pathlib.Path(name)
         fields = [] if self.layer is None else [("layer", self.layer)]
         _core.write_view(name, self._core, page.stem, against, fields)
-        if open:
+        if not is_notebook() if open is None else open:
             webbrowser.open(page.resolve().as_uri())
-        return name
+        return ViewPage(name)
 
     def to_pyvista(self) -> Any:
         """A ``pyvista.UnstructuredGrid`` with cell data ``region``, ``scaled_jacobian`` and, with wall layers, ``layer``. Points

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.h"
 #include "render/color.h"
 #include "render/font.h"
 
@@ -99,7 +100,7 @@ void draw_numbers(Image& image, const Layout& layout, const std::vector<double>&
   double sum = 0;
   for (double value : values) sum += value;
   const std::string lines[] = {
-      fmt::format("{} hexes", values.size()),
+      counted(values.size(), "hex", "hexes"),
       fmt::format("least {:.3f}", *std::min_element(values.begin(), values.end())),
       fmt::format("mean {:.3f}", sum / static_cast<double>(values.size()))};
   double y = layout.bottom + 1.5 * layout.size;

@@ -135,13 +135,23 @@ double letter_size(const PictureOptions& options) {
   return options.letter_size > 0 ? options.letter_size : std::max(8.0, options.width / 80.0);
 }
 
-// Largest first: a legend may have room for a few only.
-std::vector<NamedColor> list_patches(const HexMesh& mesh) {
+bool is_turned_away(const HexMesh& mesh, const HexFace& face, const Vec3& view_direction) {
+  const auto v = face_verts(mesh, face);
+  const Vec3 normal = cross(mesh.positions[v[2]] - mesh.positions[v[0]],
+                            mesh.positions[v[3]] - mesh.positions[v[1]]);
+  return dot(normal, view_direction) > 0;
+}
+
+// Those with faces towards the eye, largest first: a legend may have room for a few only.
+std::vector<NamedColor> list_patches(const HexMesh& mesh, const std::vector<VisibleFace>& faces,
+                                     const Vec3& view_direction) {
+  const auto patch_of = find_face_patches(mesh);
   std::vector<std::pair<std::size_t, std::size_t>> patches;  // quads, patch
-  for (const LabeledQuad& quad : mesh.labels.quads) {
-    if (!quad.patch.is_valid()) continue;
-    while (patches.size() <= quad.patch.index()) patches.emplace_back(0, patches.size());
-    ++patches[quad.patch.index()].first;
+  for (const VisibleFace& visible : faces) {
+    const PatchId patch = patch_of.empty() ? PatchId() : patch_of[face_slot(visible.face)];
+    if (!patch.is_valid() || is_turned_away(mesh, visible.face, view_direction)) continue;
+    while (patches.size() <= patch.index()) patches.emplace_back(0, patches.size());
+    ++patches[patch.index()].first;
   }
   std::stable_sort(patches.begin(), patches.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -186,7 +196,7 @@ Image render_hex_mesh(const HexMesh& mesh, const PictureOptions& options) {
   copy_pixels(raster, image);
   if (!options.draw_legend) return image;
   if (options.colors == PictureColors::Patches)
-    draw_names(image, list_patches(mesh), letters);
+    draw_names(image, list_patches(mesh, faces, options.view_direction), letters);
   else
     draw_legend(image, options.legend_title, values, letters);
   return image;

@@ -55,6 +55,7 @@ def check_page(page):
     assert [u for u in page.requests if not u.startswith(("file:", "data:"))] == [], page.requests
     assert names(page) == ["3holes.obj", "broken <b>.obj", "cube_minus_sphere.obj"], names(page)
     assert page.locator("#table1 tbody tr").count() == 5
+    assert "scaled Jacobian 0" in page.text_content(".scale") and page.locator(".scale i").first.bounding_box()["width"] > 100
     assert "99" in page.locator("#models .message").first.text_content()
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
     widths = page.eval_on_selector_all("#models img", "images => images.map(i => i.naturalWidth)")

@@ -295,6 +295,26 @@ def test_the_page_without_a_name_lies_in_a_folder_of_its_own(cube, cube_mesh, tm
         cube_mesh.view(tmp_path / "missing/a.html", open=False)
 
 
+def test_a_notebook_shows_the_page_below_the_cell(cube_mesh, tmp_path, monkeypatch):
+    import html
+    import types
+
+    from hexwright import _mesh, _view
+
+    opened = []
+    monkeypatch.setattr(_mesh.webbrowser, "open", opened.append)
+    page = cube_mesh.view(tmp_path / "a.html")
+    assert opened == [(tmp_path / "a.html").resolve().as_uri()]
+    monkeypatch.setitem(_view.sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda: types.SimpleNamespace(kernel=1)))
+    page = cube_mesh.view(tmp_path / "a.html")
+    assert len(opened) == 1
+    shown = page._repr_html_()
+    start = shown.index('srcdoc="') + len('srcdoc="')
+    assert html.unescape(shown[start : shown.index('"', start)]) == (tmp_path / "a.html").read_text(encoding="utf-8")
+    monkeypatch.setattr(_view, "LARGEST", 1000)
+    assert "iframe" not in page._repr_html_() and 'href="file:' in page._repr_html_()
+
+
 def test_names_that_a_format_cannot_take_are_told(cube, tmp_path):
     mesh = hw.mesh(*cube, patches={"a b/c": [0, 1], "inlet": [2, 3]}, **COARSE)
     assert {"a b/c", "inlet"} <= set(mesh.patches)

@@ -165,7 +165,22 @@ TEST(Picture, ByPatchFacesHaveTheColoursOfTheLegend) {
   options.draw_legend = true;
   options.width = 400;
   const Image image = render_hex_mesh(mesh, options);
-  EXPECT_GT(share_of_pixels(image, [](Pixel p) { return p.r == 214 && p.g == 99; }), 1e-4);
+  EXPECT_GT(share_of_pixels(image, [](Pixel p) { return p.r == 102 && p.g == 166; }), 1e-4);
+}
+
+TEST(Picture, TheLegendNamesThePatchesThatAreSeen) {
+  HexMesh mesh = test::box_hex_mesh(2, 2, 2);
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
+    mesh.labels.quads.push_back({face_verts(mesh, face), PatchId(face.lf)});
+  PictureOptions options = make_cut_view(1, 0.5);  // takes face 2, -y, which is green
+  options.width = options.height = 400;
+  options.colors = PictureColors::Patches;
+  const auto is_green = [](Pixel p) { return p.r == 102 && p.g == 166; };
+  EXPECT_EQ(share_of_pixels(render_hex_mesh(mesh, options), is_green), 0);
+  options.cut.reset();
+  EXPECT_GT(share_of_pixels(render_hex_mesh(mesh, options), is_green), 1e-4);
+  options.view_direction = -options.view_direction;
+  EXPECT_EQ(share_of_pixels(render_hex_mesh(mesh, options), is_green), 0);
 }
 
 TEST(Sheet, HasSixViewsAndALegend) {

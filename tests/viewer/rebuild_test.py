@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Builds the page of viewer/ anew and compares it with viewer/dist/viewer.html, byte by byte. Its colours are those of the program's pictures.
+"""Builds the page of viewer/ anew and compares it with viewer/dist/viewer.html, byte by byte. Its colours and those of the report are
+those of the program's pictures.
 
 Usage: rebuild_test.py SOURCE_DIR. Exit code 77 (skipped) without node and npm, or when npm cannot get the packages of the lock file.
 """
@@ -17,6 +18,9 @@ def check_colors(source):
         rows = [re.search(pattern, text, re.S)[1] for pattern, text in ((table + r" = \{\{(.*?)\}\};", program), (name + r" = \[\[(.*?)\]\];", page))]
         first, second = (re.findall(r"\d+", text) for text in rows)
         assert first == second and len(first) >= 30, f"{table} of src/render/color.cpp is not {name} of viewer/src/colors.js"
+    scale = re.search(r"kScale = \{\{(.*?)\}\};", program, re.S)[1]
+    bar = re.search(r"\.scale i \{.*?linear-gradient\((.*?)\); \}", (source / "cli/bench/page/report.css").read_text(), re.S)[1]
+    assert re.findall(r"\d+", scale) == re.findall(r"\d+", bar), "kScale of src/render/color.cpp is not the scale of the report"
 
 
 def main():

@@ -58,6 +58,7 @@ export class Panel {
       previous: () => app.flyToWorst(-1), link: () => this.showLink(), help: () => element('keys').showModal(), theme: () => this.switchTheme(),
       'all-patches': () => this.hidePatches(false), 'no-patches': () => this.hidePatches(true)};
     for (const [id, action] of Object.entries(actions)) element(id).addEventListener('click', action);
+    element('link').hidden = location.protocol === 'about:';  // inside a notebook no address leads here
   }
 
   switchTheme() {
