@@ -30,21 +30,6 @@ def box(lo, hi):
     return [(p[q[i]], p[q[j]], p[q[k]]) for q in quads for i, j, k in ((0, 1, 2), (0, 2, 3))]
 
 
-def prism(outline, height):
-    """Over a star-shaped outline about its first corner, bottom at 0."""
-    n = len(outline)
-    low, high = [(*p, 0.0) for p in outline], [(*p, height) for p in outline]
-    tris = [(high[0], high[i], high[i + 1]) for i in range(1, n - 1)] + [(low[0], low[i + 1], low[i]) for i in range(1, n - 1)]
-    for i in range(n):
-        j = (i + 1) % n
-        tris += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
-    return tris
-
-
-def flipped(tris):
-    return [(a, c, b) for a, b, c in tris]
-
-
 def finer(tris, times=2):
     """Each triangle in four, so that plates show the shape."""
     for _ in range(times):
@@ -57,47 +42,39 @@ def finer(tris, times=2):
 
 
 def turn_every_third(tris):
-    return [t if i % 3 else flipped([t])[0] for i, t in enumerate(tris)]
-
-
-BLOCK, POST = box((0, 0, 0), (10, 10, 4)), box((3, 3, -2), (7, 7, 9))
-SLIT = box((0, 0, 0), (10, 5, 4)) + box((0, 5, 0), (10, 10, 4))
-
-# Name, triangles, options of mesh, axis and place of the cut.
-STEPS = [
-    ("weld", [tuple(add(p, (1e-6 * (i % 3),) * 3) for p in t) for i, t in enumerate(BLOCK)], [], "y", 0.6),
-    ("flat", [*finer(BLOCK), ((0, 0, 4), (2.5, 0, 4), (5, 0, 4)), ((0, 10, 4), (5, 10, 4), (7.5, 10, 4))], [], "y", 0.6),
-    ("copies", BLOCK + box((10, 0, 0), (16, 10, 4)) + BLOCK[:2], [], "y", 0.6),
-    ("orient", turn_every_third(finer(BLOCK)), [], "y", 0.6),
-    ("holes", [t for t in finer(BLOCK) if not all(p[2] == 4 and 2 < p[0] < 8 and 2 < p[1] < 8 for p in t)], [], "y", 0.85),
-    ("unite", BLOCK + POST, [], "y", 0.55),
-    ("slit", None, [], "z", 0.6),
-    ("small", BLOCK + box((11, 5, 2), (11.03, 5.03, 2.03)), [], "y", 0.6),
-    ("hidden", BLOCK + [((5, 2, 1), (5, 8, 1), (5, 8, 3)), ((5, 2, 1), (5, 8, 3), (5, 2, 3))], [], "y", 0.6),
-    ("apart", BLOCK + box((2, 2, 4.02), (8, 8, 8)), [], "y", 0.6),
-]
-
-
-def slit_box():
-    """A block with a slit of no width from one side, whose walls have other corners."""
-    outline = [(0, 0), (10, 0), (10, 5), (8, 5), (5, 5), (3, 5)]
-    upper = [(0, 10), (0, 0), (3, 5), (10, 5), (10, 10)]
-    return outline, upper
+    return [t if i % 3 else (t[0], t[2], t[1]) for i, t in enumerate(tris)]
 
 
 def slit_tris():
-    lower, upper = slit_box()
+    """A block with a slit of no width from one side, whose walls have other corners."""
+    lower, upper = [(0, 0), (10, 0), (10, 5), (8, 5), (5, 5), (3, 5)], [(0, 10), (0, 0), (3, 5), (10, 5), (10, 10)]
     tris = []
     for ring in (lower, upper):
-        n = len(ring)
-        for i in range(1, n - 1):
-            a, b, c = ring[0], ring[i], ring[i + 1]
+        for b, c in zip(ring[1:], ring[2:]):
+            a = ring[0]
             tris += [((*a, 4.0), (*b, 4.0), (*c, 4.0)), ((*a, 0.0), (*c, 0.0), (*b, 0.0))]
-    loop = [(0, 0), (10, 0), (10, 5), (8, 5), (5, 5), (3, 5), (10, 5), (10, 10), (0, 10)]
+    loop = [*lower, (10, 5), (10, 10), (0, 10)]
     for i, a in enumerate(loop):
         b = loop[(i + 1) % len(loop)]
         tris += [((*a, 0.0), (*b, 0.0), (*b, 4.0)), ((*a, 0.0), (*b, 4.0), (*a, 4.0))]
     return tris
+
+
+BLOCK, POST = box((0, 0, 0), (10, 10, 4)), box((3, 3, -2), (7, 7, 9))
+
+# Name, triangles, axis and place of the cut.
+STEPS = [
+    ("weld", [tuple(add(p, (1e-6 * (i % 3),) * 3) for p in t) for i, t in enumerate(BLOCK)], "y", 0.6),
+    ("flat", [*finer(BLOCK), ((0, 0, 4), (2.5, 0, 4), (5, 0, 4)), ((0, 10, 4), (5, 10, 4), (7.5, 10, 4))], "y", 0.6),
+    ("copies", BLOCK + box((10, 0, 0), (16, 10, 4)) + BLOCK[:2], "y", 0.6),
+    ("orient", turn_every_third(finer(BLOCK)), "y", 0.6),
+    ("holes", [t for t in finer(BLOCK) if not all(p[2] == 4 and 2 < p[0] < 8 and 2 < p[1] < 8 for p in t)], "y", 0.85),
+    ("unite", BLOCK + POST, "y", 0.55),
+    ("slit", slit_tris(), "z", 0.6),
+    ("small", BLOCK + box((11, 5, 2), (11.03, 5.03, 2.03)), "y", 0.6),
+    ("hidden", BLOCK + [((5, 2, 1), (5, 8, 1), (5, 8, 3)), ((5, 2, 1), (5, 8, 3), (5, 2, 3))], "y", 0.6),
+    ("apart", BLOCK + box((2, 2, 4.02), (8, 8, 8)), "y", 0.6),
+]
 
 
 def write_obj(path, tris):
@@ -129,13 +106,12 @@ def write_plates(path, tris, thickness=0.06, room=0.06):
 
 
 def main(program, folder):
-    for name, tris, options, axis, place in STEPS:
-        tris = tris or slit_tris()
+    for name, tris, axis, place in STEPS:
         with tempfile.TemporaryDirectory() as out:
             surface, plates, mesh = (Path(out) / n for n in ("s.obj", "plates.mesh", "mesh.vtu"))
             write_obj(surface, tris)
             write_plates(plates, tris)
-            subprocess.run([program, "mesh", surface, "-o", mesh, "--size", "5%", "--quiet", *options], check=False)
+            subprocess.run([program, "mesh", surface, "-o", mesh, "--size", "5%", "--quiet"], check=False)
             for path, kind in ((plates, "before"), (mesh, "after")):
                 subprocess.run([program, "picture", path, "-o", folder / f"surface_{name}_{kind}.png", "--cut", axis, "--cut-at", str(place),
                                 "--quiet", *SIZE], check=True)

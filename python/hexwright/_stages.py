@@ -110,10 +110,8 @@ def mesh(
             raise BadInput("features: a CAD part brings its own; tangent_edges=True adds the smooth edges")
         rules = to_rules(patches)
         with cad_file(surface) as path:
-            core, grid, text, layer, matched = _core.mesh_cad(path, rules, call)
-        said = tell_unmatched(patches or {}, matched)
-        if said:
-            _warnings.warn("; ".join(said), HexwrightWarning, stacklevel=2)
+            core, grid, text, layer, matched, read = _core.mesh_cad(path, rules, call)
+        said = read + tell_unmatched(patches or {}, matched)
     else:
         given = as_surface(surface, faces, patches)
         said = given.warnings
@@ -142,16 +140,18 @@ def inspect(
     -------
     dict
         What ``hexwright inspect --json`` prints; ``refusal`` says why ``mesh`` would refuse the surface, and is empty when it
-        would not.
+        would not. ``warnings``: what was said of the file and of rules that fit nothing.
     """
     call = to_call("inspect", options, progress, threads)
-    if faces is None and patches is None and is_cad(surface):
+    if faces is None and is_cad(surface):
+        rules = to_rules(patches)
         with cad_file(surface) as path:
-            text = _core.inspect_cad(path, call)
+            text, matched, read = _core.inspect_cad(path, rules, call)
+        said = read + tell_unmatched(patches or {}, matched)
     else:
-        text = _core.inspect(as_surface(surface, faces, patches)._core, call)
-    found: dict[str, Any] = json.loads(text)
-    return found
+        given = as_surface(surface, faces, patches)
+        text, said = _core.inspect(given._core, call), given.warnings
+    return {**json.loads(text), "warnings": said}
 
 
 def grid(

@@ -84,28 +84,33 @@ nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, 
 }
 
 /// A CAD file; `rules` as --patch of the command line takes them.
-nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>& rules,
-                        const Call& call) {
-  const auto options = read_options<MeshOptions>(call);
+CadInput read_cad_input(const std::string& path, const std::vector<std::string>& rules,
+                        const MeshOptions& options) {
   std::vector<PatchRule> parsed;
   for (const std::string& text : rules) {
     parsed.push_back(parse_patch_rule(text));
     for (PatchCondition& condition : parsed.back().conditions)
       if (!condition.path.empty()) condition.surface = read_surface(condition.path).mesh;
   }
+  return prepare_cad(read_cad(path, read_options_for(options)), std::move(parsed), options);
+}
+
+/// The file's own warnings are the last.
+nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>& rules,
+                        const Call& call) {
+  const auto options = read_options<MeshOptions>(call);
   MeshResult result;
   std::string report;
   CadInput input;
   run_stage(call.run, [&](const Context& context) {
-    input = prepare_cad(read_cad(path, read_options_for(options)), std::move(parsed), options);
-    for (const std::string& warning : input.model.warnings) context.warn(warning);
+    input = read_cad_input(path, rules, options);
     result = mesh_cad(input, options, context);
     report = report_to_json(
         result, options, {path, "", num_threads(), {}, summarize_cad(input.model, input.surface)});
   });
   nb::object layer = give_layer(result);
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, layer,
-                        input.num_matched);
+                        input.num_matched, input.model.warnings);
 }
 
 nb::tuple grid(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
@@ -224,17 +229,21 @@ std::string inspect(const TriMesh& surface, const Call& call) {
   return run_for(call, look).first;
 }
 
-std::string inspect_cad(const std::string& path, const Call& call) {
+/// With the number of faces that fit each rule, and the file's own warnings.
+nb::tuple inspect_cad(const std::string& path, const std::vector<std::string>& rules,
+                      const Call& call) {
   MeshOptions options;
   apply_options(make_inspect_option_table(options), call.options);
+  CadInput input;
   const auto look = [&](const Context& context) {
-    const CadInput input = prepare_cad(read_cad(path, read_options_for(options)), {}, options);
+    input = read_cad_input(path, rules, options);
     SurfaceInspection inspection =
         inspect_surface(input.surface.surface, options_for_cad(options, input), context);
     inspection.cad = summarize_cad(input.model, input.surface);
     return inspection_to_json(inspection);
   };
-  return run_for(call, look).first;
+  const std::string found = run_for(call, look).first;
+  return nb::make_tuple(found, input.num_matched, input.model.warnings);
 }
 
 std::string evaluate(const TriMesh& surface, const Call& call) {
@@ -262,7 +271,7 @@ void bind_stages(nb::module_& module) {
   module.def("can_read_cad", &can_read_cad);
   module.def("mesh_cad", &mesh_cad_file, "path"_a, "rules"_a, "call"_a);
   module.def("inspect", &inspect, "surface"_a, "call"_a);
-  module.def("inspect_cad", &inspect_cad, "path"_a, "call"_a);
+  module.def("inspect_cad", &inspect_cad, "path"_a, "rules"_a, "call"_a);
   module.def("mesh", &mesh, "surface"_a, "features"_a.none(), "call"_a);
   module.def("grid", &grid, "surface"_a, "features"_a.none(), "call"_a);
   module.def("complete", &complete_grid, "grid"_a, "call"_a);

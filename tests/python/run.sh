@@ -21,8 +21,9 @@ step_wheel() {
 
 # Where the system gives a namespace, the build tree is empty in it and the system's TBB is no library.
 step_clean() {
-  local folder hide=()
+  local hide=()
   folder="$(mktemp -d)"
+  trap 'rm -rf "$folder"' EXIT
   python3 -m venv "$folder/env"
   "$folder/env/bin/python" -m pip install --quiet "$WHEEL"
   mkdir -p "$folder/source/include/hexwright"
@@ -40,7 +41,6 @@ SCRIPT
   unshare -rm bash "$folder/hide.sh" "$ROOT" true 2>/dev/null && hide=(unshare -rm bash "$folder/hide.sh" "$ROOT")
   (cd "$folder" && env -i HOME="$folder" PATH=/usr/bin:/bin ${hide[@]:+HEXWRIGHT_HIDDEN="$ROOT"} "${hide[@]}" \
     "$folder/env/bin/python" -I clean_check.py plate_holes.stl "$(basename "$WHEEL")" source)
-  rm -rf "$folder"
 }
 
 # In a folder as deep as the wheel's, so that the compiler's cache serves: what is tested is that no file is missing.

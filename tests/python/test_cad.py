@@ -52,12 +52,19 @@ def test_what_a_cad_part_cannot_take_is_refused(tmp_path):
         hw.mesh(PLATE, patches={"hole": [1, 2]}, **COARSE)
     with pytest.raises(hw.BadInput, match="brings its own"):
         hw.mesh(PLATE, features=[[0, 1]], **COARSE)
-    with pytest.warns(hw.HexwrightWarning, match="no part of the surface fits"):
-        hw.mesh(PLATE, patches={"none": "sphere:r=77"}, **COARSE)
+    assert "no part of the surface fits" in " ".join(hw.mesh(PLATE, patches={"none": "sphere:r=77"}, **COARSE).warnings)
     cut = tmp_path / "cut.step"
     cut.write_text(PLATE.read_text()[:3000])
     with pytest.raises(hw.BadInput, match="last line"):
         hw.mesh(cut)
+
+
+@needs_cad
+def test_a_step_file_is_inspected_with_rules():
+    found = hw.inspect(PLATE, patches={"hole": "cylinder:r=5", "none": "sphere:r=77"})
+    assert found["refusal"] == "" and found["cad"]["solids"] == ["plate"]
+    assert "hole" in {face["name"] for face in found["cad"]["faces"]}
+    assert len(found["warnings"]) == 1 and "no part of the surface fits" in found["warnings"][0]
 
 
 @needs_cad
