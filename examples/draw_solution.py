@@ -4,7 +4,7 @@ import numpy as np
 
 def draw_faces(axes, points, faces, values, direction):
     """Faces (n, 4), or (n, 8) with the nodes between the corners, of points (m, 3), counter-clockwise from outside, coloured
-    by the values at the points (m,) or of the faces (n,), as seen along `direction`."""
+    by their values (n,), as seen along `direction`."""
     from matplotlib.collections import PolyCollection
 
     forward = np.array(direction) / np.linalg.norm(direction)
@@ -17,8 +17,7 @@ def draw_faces(axes, points, faces, values, direction):
     is_seen = normal @ forward < 0
     order = np.flatnonzero(is_seen)[np.argsort(-(shapes[is_seen].mean(axis=1) @ forward))]  # far ones first
     flat = np.stack([shapes[order] @ right, shapes[order] @ up], axis=-1)
-    of_faces = values[order] if len(values) == len(faces) else values[faces[order]].mean(axis=1)
-    drawn = PolyCollection(flat, array=of_faces, cmap="viridis", edgecolors=(0, 0, 0, 0.35), linewidths=0.4)
+    drawn = PolyCollection(flat, array=values[order], cmap="viridis", edgecolors=(0, 0, 0, 0.35), linewidths=0.4)
     axes.add_collection(drawn)
     axes.autoscale()
     axes.set_aspect("equal")
@@ -27,13 +26,13 @@ def draw_faces(axes, points, faces, values, direction):
 
 
 def draw_solution(points, faces, values, path, title, direction=(-0.55, 0.65, -0.5)):
-    """A picture of draw_faces alone."""
+    """A picture of draw_faces alone; the values are those at the points (m,)."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(9, 6), layout="constrained")
-    draw_faces(axes, points, faces, values, direction)
+    draw_faces(axes, points, faces, values[faces].mean(axis=1), direction)
     axes.set_title(title)
     figure.savefig(path, dpi=110)

@@ -15,6 +15,7 @@ import json
 import shlex
 import subprocess
 import sys
+from datetime import date
 from pathlib import Path
 
 LAB = Path(__file__).resolve().parent
@@ -96,12 +97,15 @@ def default_data(module, parser, args):
 
 
 def stamped(page):
-    """The page with the version that made it behind its heading."""
-    shown = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%h (%cs)"], capture_output=True, text=True, check=False)
+    """The page with the tree's version, and whether it has changes of its own, behind its heading."""
+    try:
+        shown = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True, check=False)
+    except OSError:
+        return page
     if shown.returncode != 0:
         return page
     heading, rest = page.split("\n\n", 1)
-    return f"{heading}\n\nOf commit {shown.stdout.strip()}.\n\n{rest}"
+    return f"{heading}\n\nAt {shown.stdout.strip()} ({date.today()}).\n\n{rest}"
 
 
 def make_table(parser, args):

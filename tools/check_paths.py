@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that source files named in the documentation and in comments exist.
+"""Checks that source files named in the documentation, and with their folder in comments of C++, exist.
 
 Usage: check_paths.py SOURCE_DIR. Prints every name without a file; exit code 1 when there is one.
 Pages of results are left out: they speak of the version that made them.

@@ -61,16 +61,16 @@ def at_vertices(mesh, displacement):
             displacement.GetVectorGradient(place, gradient)
             strain = np.array(gradient.GetDataArray())
             strain = (strain + strain.T) / 2
-            away = 2 * SHEAR * (strain - np.eye(3) * np.trace(strain) / 3)
+            deviator = 2 * SHEAR * (strain - np.eye(3) * np.trace(strain) / 3)
             moved[vertex] = value.GetDataArray()
-            mises[vertex] += np.sqrt(1.5 * np.sum(away**2))
+            mises[vertex] += np.sqrt(1.5 * np.sum(deviator**2))
             count[vertex] += 1
     return moved, mises / count
 
 
 mesh = mfem.Mesh(sys.argv[1], 1, 1)
-degree = mfem.H1_FECollection(2, 3)
-space = mfem.FiniteElementSpace(mesh, degree, 3)
+collection = mfem.H1_FECollection(2, 3)
+space = mfem.FiniteElementSpace(mesh, collection, 3)
 moved, mises = at_vertices(mesh, solve(mesh, space, read_boundary_sets(sys.argv[1])))
 largest = np.linalg.norm(moved, axis=1).max()
 print(f"{mesh.GetNE()} elements: largest displacement {largest:.4g} mm, largest von Mises stress {mises.max():.4g} MPa")

@@ -53,6 +53,7 @@ SHAPES = {
     "frame": ([(x, y, 0) for x in range(3) for y in range(3) if (x, y) != (1, 1)], swollen),
     "ring": ([(x, y, 0) for x in range(3) for y in range(3) if (x, y) != (1, 1)], ring),
     "stair": ([(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 0, 1), (2, 0, 1), (2, 0, 2)], swollen),
+    # Refused: six faces meet in its inner corner.
     "tripod": ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], swollen),
 }
 

@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -666,7 +667,10 @@ class Surroundings(CliTest):
         time.sleep(delay)
         os.kill(process.pid, number)  # Popen's own would collect a process that has ended
         before = used_seconds(process.pid)
+        hangs = threading.Timer(60, os.kill, (process.pid, signal.SIGKILL))  # asleep, or waiting for a lock
+        hangs.start()
         errors = process.stderr.read()
+        hangs.cancel()
         _, state, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(state)
         process.stderr.close()
