@@ -140,7 +140,8 @@ def inspect(
     -------
     dict
         What ``hexwright inspect --json`` prints; ``refusal`` says why ``mesh`` would refuse the surface, and is empty when it
-        would not. ``warnings``: what was said of the file and of rules that fit nothing.
+        would not. ``warnings``: those of the file and of rules
+        that fit nothing too.
     """
     call = to_call("inspect", options, progress, threads)
     if faces is None and is_cad(surface):
@@ -151,7 +152,9 @@ def inspect(
     else:
         given = as_surface(surface, faces, patches)
         text, said = _core.inspect(given._core, call), given.warnings
-    return {**json.loads(text), "warnings": said}
+    found: dict[str, Any] = json.loads(text)
+    found["warnings"] = said + found["warnings"]
+    return found
 
 
 def grid(

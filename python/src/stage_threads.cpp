@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <unistd.h>
+#include <pthread.h>
 
 namespace hexwright::python {
 
@@ -70,13 +70,8 @@ namespace {
 /// The idle ones. In a forked process they are forgotten, not ended: they do not run there.
 class IdleThreads {
  public:
-  ~IdleThreads() {
-    if (process_ != getpid()) forget();
-  }
-
   std::unique_ptr<StageThread> take() {
     const std::lock_guard lock(mutex_);
-    if (process_ != getpid()) forget();
     if (threads_.empty()) return std::make_unique<StageThread>();
     auto thread = std::move(threads_.back());
     threads_.pop_back();
@@ -88,20 +83,27 @@ class IdleThreads {
     threads_.push_back(std::move(thread));
   }
 
- private:
+  /// Around a fork, so that no other thread is in here meanwhile.
+  void lock() { mutex_.lock(); }
+  void unlock() { mutex_.unlock(); }
   void forget() {
     for (auto& thread : threads_) static_cast<void>(thread.release());
     threads_.clear();
-    process_ = getpid();
   }
 
+ private:
   std::mutex mutex_;
   std::vector<std::unique_ptr<StageThread>> threads_;
-  pid_t process_ = getpid();
 };
 
 IdleThreads& idle_threads() {
   static IdleThreads threads;
+  [[maybe_unused]] static const int watched =
+      pthread_atfork([] { idle_threads().lock(); }, [] { idle_threads().unlock(); },
+                     [] {
+                       idle_threads().forget();
+                       idle_threads().unlock();
+                     });
   return threads;
 }
 
