@@ -24,10 +24,11 @@ const std::vector<std::string> kSurfaceExtensions = {".obj", ".off", ".stl", ".p
 const std::vector<std::string> kGridOnlyExtensions = {".cells", ".htg"};
 
 /// The kind follows from the extensions; a .vtu or .mesh may hold a mesh or a grid, and counts as a
-/// mesh unless the other name or --grid says otherwise.
+/// mesh unless the other name or --grid says otherwise; so may a .msh or .vtk hold a surface.
 void run(const ConvertCommand& cmd, Program& program) {
   check_outputs({cmd.output});
-  if (has_extension(cmd.input, kSurfaceExtensions) || is_cad_file(cmd.input)) {
+  if (has_extension(cmd.input, kSurfaceExtensions) ||
+      has_extension(cmd.output, kSurfaceExtensions) || is_cad_file(cmd.input)) {
     require_extension(cmd.output, kSurfaceExtensions);
     const TriMesh surface = load_surface(cmd.input, program);
     write_surface(cmd.output, surface);

@@ -73,7 +73,9 @@ void add_fit_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<FitCommand>();
   CLI::App* sub = app.add_subcommand("fit", "Carve a hex mesh and fit it to a surface");
   sub->add_option("hexes", cmd->hexes, "Conforming hex mesh, of any program")->required();
-  sub->add_option("surface", cmd->surface, "Surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("surface", cmd->surface,
+                  "Surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF")
+      ->required();
   add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);

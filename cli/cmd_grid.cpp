@@ -41,7 +41,9 @@ void run(const GridCommand& cmd, Program& program) {
 void add_grid_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<GridCommand>();
   CLI::App* sub = app.add_subcommand("grid", "Adaptive grid of a surface (before completion)");
-  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("input", cmd->input,
+                  "Surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF")
+      ->required();
   sub->add_option("-o,--output", cmd->output, "Grid: .cells, .htg, .vtu or .mesh")->required();
   add_options(*sub, make_grid_option_table(cmd->options));
   add_feature_file_option(*sub, cmd->features);

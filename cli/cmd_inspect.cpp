@@ -51,7 +51,9 @@ void run(const InspectCommand& cmd, Program& program) {
 void add_inspect_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<InspectCommand>();
   CLI::App* sub = app.add_subcommand("inspect", "Tell what a surface is before it is meshed");
-  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY; or CAD: STEP, IGES or BREP")
+  sub->add_option(
+         "input", cmd->input,
+         "Surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF; or CAD: STEP, IGES or BREP")
       ->required();
   sub->add_flag("--json", cmd->as_json, "Print as JSON");
   sub->add_option("--report", cmd->report, "Write as JSON");

@@ -108,7 +108,9 @@ void run(const MeshCommand& cmd, Program& program) {
 void add_mesh_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<MeshCommand>();
   CLI::App* sub = app.add_subcommand("mesh", "Surface in, verified all-hex mesh out");
-  sub->add_option("input", cmd->input, "Surface: OBJ, OFF, STL or PLY; or CAD: STEP, IGES or BREP")
+  sub->add_option(
+         "input", cmd->input,
+         "Surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF; or CAD: STEP, IGES or BREP")
       ->required();
   add_mesh_output_option(*sub, cmd->output);
   add_options(*sub, make_option_table(cmd->options));

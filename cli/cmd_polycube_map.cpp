@@ -77,7 +77,9 @@ void add_polycube_map_command(CLI::App& app, Program& program) {
   auto cmd = std::make_shared<PolycubeMapCommand>();
   CLI::App* sub = app.add_subcommand("polycube-map",
                                      "Polycube map of a surface with six labels, and its hexes");
-  sub->add_option("surface", cmd->surface, "Closed surface: OBJ, OFF, STL or PLY")->required();
+  sub->add_option("surface", cmd->surface,
+                  "Closed surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF")
+      ->required();
   sub->add_option("labels", cmd->labels,
                   "Text file: for each triangle, in the surface's order, 0 to 5 for +x, -x, +y, "
                   "-y, +z, -z")

@@ -62,7 +62,8 @@ void add_view_command(CLI::App& app, Program& program) {
   sub->add_option("input", cmd->input, "Hex mesh: VTU, VTK, MEDIT, Gmsh, Abaqus, MFEM or Exodus")
       ->required();
   sub->add_option("surface", cmd->surface,
-                  "Surface that it stands for, to be drawn over it: OBJ, OFF, STL or PLY");
+                  "Surface that it stands for, to be drawn over it: OBJ, OFF, STL, PLY, VTP, VTK, "
+                  "Gmsh, Nastran or 3MF");
   sub->add_option("-o,--output", cmd->output, "Page: .html [a new folder for temporary files]");
   sub->add_flag("--no-open", cmd->no_open, "Write the page only");
   sub->add_option("--whole-up-to", cmd->max_whole_hexes,

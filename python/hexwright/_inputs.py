@@ -151,7 +151,7 @@ def _to_faces(faces: Any) -> NDArray[Any]:
 
 
 def read_surface(path: PathLike) -> Surface:
-    """Reads a triangle surface: OBJ, OFF, STL or PLY, by content first and extension second.
+    """Reads a triangle surface: OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF, by content first and extension second.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def mesh(
     Parameters
     ----------
     surface : path, array_like of shape (n, 3), or object
-        A file (OBJ, OFF, STL, PLY); vertices, with ``faces``; a pair of arrays; or an object with vertices and faces such
+        A file (OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran, 3MF); vertices, with ``faces``; a pair of arrays; or an object with vertices and faces such
         as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once. Where the
         package was built with its reader of CAD files also STEP, IGES and BREP files, and parts of cadquery and build123d.
     faces : array_like of shape (m, 3), optional

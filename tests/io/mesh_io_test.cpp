@@ -130,8 +130,10 @@ TEST(HexMeshIo, DamagedFilesAreRefusedWithPlaceAndReason) {
       {"none.mesh", head + "1\n0 0 0 0\nEnd\n", "none.mesh", "no hexahedron"},
       {"xml.vtu", "<?xml version=\"1.0\"?>\n<VTKFile>\n<Unstr", "xml.vtu:3", "XML"},
       {"poly.vtu", "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>", "poly.vtu", "PolyData"},
-      {"set.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "set.vtk:4",
-       "UNSTRUCTURED_GRID"},
+      {"set.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "set.vtk",
+       "UnstructuredGrid"},
+      {"points.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n",
+       "points.vtk:4", "UNSTRUCTURED_GRID"},
       {"huge.vtk",
        "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\n"
        "POINTS 6148914691236517206 double\n",

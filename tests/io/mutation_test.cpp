@@ -12,6 +12,7 @@
 #include "hexwright/io/surface_io.h"
 
 #include "io/sample_meshes.h"
+#include "io/surface_samples.h"
 #include "io/temp_folder.h"
 
 namespace hexwright {
@@ -75,6 +76,15 @@ std::vector<Sample> make_samples(const TempFolder& folder) {
                "property list uchar int vertex_indices\nend_header\n0 0 0 9\n1 0 0 9\n0 1 0 9\n"
                "0 0 1 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   add("text.ply", read_and_check_surface);
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"s.msh", test::kGmshTetrahedron},
+           {"s.vtk", test::kVtkTetrahedron},
+           {"s.vtp", test::kVtpTetrahedron},
+           {"s.bdf", test::kNastranTetrahedron},
+           {"s.3mf", test::zip_of({{"a.model", test::k3mfModel}})}}) {
+    folder.write(name, text);
+    add(name, read_and_check_surface);
+  }
   folder.write("text.stl",
                "solid a b\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n"
                "   vertex 0 1 0\n  endloop\n endfacet\nendsolid a b\n");
@@ -98,9 +108,10 @@ TEST(DamagedFiles, TruncatedFilesAreNeverPartialMeshes) {
   for (const Sample& sample : make_samples(folder)) {
     const std::size_t whole = try_read(sample.read, folder / sample.name);
     EXPECT_GT(whole, 0u) << sample.name;
-    // OBJ and Abaqus say nowhere how many elements there are, and neither does binary STL reliably.
-    const bool is_counted =
-        sample.name != "a.obj" && sample.name != "a.stl" && sample.name != "a.inp";
+    // OBJ, Abaqus and Nastran say nowhere how many elements there are, and neither does binary STL
+    // reliably.
+    const bool is_counted = sample.name != "a.obj" && sample.name != "a.stl" &&
+                            sample.name != "a.inp" && sample.name != "s.bdf";
     const std::size_t step = std::max<std::size_t>(1, sample.bytes.size() / kCuts);
     for (std::size_t size = sample.bytes.size() % step; size < sample.bytes.size(); size += step) {
       const auto got =

@@ -1,5 +1,5 @@
-// Reads triangle surfaces: OBJ, OFF, STL (ascii, binary), PLY (ascii, binary). By content first,
-// extension second.
+// Reads triangle surfaces: OBJ, OFF, STL and PLY (text and binary), polygons of VTK, shells of Gmsh
+// and Nastran, 3MF. By content first, extension second.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@ namespace hexwright {
 
 struct SurfaceFile {
   /// Polygons are triangulated; nothing is welded or dropped. Solids of STL, groups (or materials,
-  /// or objects) of OBJ and the face property patch, label, group or material of PLY are its
-  /// groups.
+  /// or objects) of OBJ, the face property patch, label, group or material of PLY and VTK, physical
+  /// groups of Gmsh, properties of Nastran and objects of 3MF are its groups.
   TriMesh mesh;
   std::string format;                 ///< "OBJ", "STL (binary)" ...
   std::vector<std::string> warnings;  ///< "count field says 1446 facets, file holds 446" ...

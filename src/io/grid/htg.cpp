@@ -14,6 +14,7 @@
 #include "io/mesh/vtk_xml.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
+#include "io/vtk/vtk_xml_file.h"
 
 namespace hexwright::io {
 namespace {
@@ -22,7 +23,7 @@ constexpr double kSpacingTolerance = 1e-6;  // relative to a root cube's edge
 
 class HtgReader {
  public:
-  explicit HtgReader(const VolumeSource& source) : xml_(source) {}
+  explicit HtgReader(const VolumeSource& source) : xml_(source.bytes, source.name) {}
 
   GridFile run() {
     grid_ = xml_.root().child("HyperTreeGrid");

@@ -37,6 +37,10 @@ class VtkConverter {
   VtkConverter(VtkGrid&& grid, const std::string& name) : grid_(std::move(grid)), name_(name) {}
 
   VolumeFile run() {
+    if (grid_.is_polygons)
+      throw bad_file(name_,
+                     "the file holds polygons (PolyData), not an UnstructuredGrid; give a "
+                     "mesh of hexes");
     if (grid_.types.size() != grid_.ends.size())
       throw bad_file(name_, std::to_string(grid_.ends.size()) + " cells but " +
                                 std::to_string(grid_.types.size()) +

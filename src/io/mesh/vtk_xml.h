@@ -1,4 +1,4 @@
-// VTK's XML files: the document, and the numbers of its DataArrays in any encoding.
+// Writes VTK's XML files.
 #pragma once
 
 #include <span>
@@ -6,38 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <pugixml.hpp>
-
 #include "io/mesh/volume_file.h"
 #include "io/mesh/vtk_cells.h"
-#include "io/text/encoded_stream.h"
 
 namespace hexwright::io {
-
-/// A parsed file. Raw appended data is no XML, so it is cut out before parsing.
-class VtkXmlFile {
- public:
-  explicit VtkXmlFile(const VolumeSource& source);
-
-  const std::string& name() const { return source_.name; }
-  pugi::xml_node root() const { return root_; }  ///< <VTKFile>
-
-  /// The numbers of a DataArray; bits (type Bit) are unpacked. Throws Error{BadFile} naming the
-  /// array.
-  std::vector<double> values(const pugi::xml_node& array) const;
-
- private:
-  void parse_xml(std::string_view text);
-  std::string decode(const pugi::xml_node& array, const std::string& where) const;
-  std::vector<double> text_values(const pugi::xml_node& array, const std::string& where) const;
-
-  VolumeSource source_;
-  pugi::xml_document document_;
-  pugi::xml_node root_;
-  std::string_view appended_;  // after the underscore
-  BlockFormat format_;
-  bool is_appended_base64_ = false;
-};
 
 /// Writes a file with zlib-compressed raw appended data, 64-bit headers, little endian.
 class VtkXmlWriter {

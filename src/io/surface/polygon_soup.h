@@ -9,6 +9,8 @@
 
 #include "hexwright/io/surface_io.h"
 
+#include "io/text/file_bytes.h"
+
 namespace hexwright::io {
 
 /// Polygons in compressed rows. Indices are checked by the readers, which know the line.
@@ -56,13 +58,15 @@ PolygonSoup read_off(const SurfaceSource& source);
 PolygonSoup read_stl_ascii(const SurfaceSource& source);
 PolygonSoup read_stl_binary(const SurfaceSource& source);
 PolygonSoup read_ply(const SurfaceSource& source);
+PolygonSoup read_vtk_legacy_surface(const SurfaceSource& source);
+PolygonSoup read_vtk_xml_surface(const SurfaceSource& source);
+PolygonSoup read_gmsh_surface(const SurfaceSource& source);
+PolygonSoup read_nastran_surface(const SurfaceSource& source);
+PolygonSoup read_3mf(const SurfaceSource& source);
 
 /// True for the first token of an OFF file: OFF, COFF, NOFF, STCNOFF ...
 bool is_off_keyword(std::string_view token);
 /// True when the size is exactly what the count field of a binary STL says.
 bool is_exact_binary_stl(std::string_view bytes);
-
-/// Largest number of vertices or elements that 32-bit ids allow.
-inline constexpr std::size_t kMaxElements = 0x7ffffff0;
 
 }  // namespace hexwright::io

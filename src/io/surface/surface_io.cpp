@@ -11,6 +11,7 @@
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
 #include "io/text/text_writer.h"
+#include "io/text/zip_archive.h"
 
 namespace hexwright {
 namespace io {
@@ -19,7 +20,7 @@ namespace {
 /// A row of the table of formats; adding one means adding a row and its test of the content.
 struct SurfaceFormat {
   const char* name;
-  const char* extension;
+  const char* extensions;  ///< with blanks between
   PolygonSoup (*read)(const SurfaceSource&);
 };
 
@@ -28,6 +29,19 @@ constexpr SurfaceFormat kOff = {"OFF", ".off", read_off};
 constexpr SurfaceFormat kStlText = {"STL (text)", ".stl", read_stl_ascii};
 constexpr SurfaceFormat kStlBinary = {"STL (binary)", ".stl", read_stl_binary};
 constexpr SurfaceFormat kPly = {"PLY", ".ply", read_ply};
+constexpr SurfaceFormat kVtp = {"VTK XML", ".vtp .vtu", read_vtk_xml_surface};
+constexpr SurfaceFormat kVtk = {"legacy VTK", ".vtk", read_vtk_legacy_surface};
+constexpr SurfaceFormat kGmsh = {"Gmsh", ".msh .msh2", read_gmsh_surface};
+constexpr SurfaceFormat kNastran = {"Nastran", ".bdf .nas .dat .fem", read_nastran_surface};
+constexpr SurfaceFormat k3mf = {"3MF", ".3mf", read_3mf};
+
+constexpr const char* kKnownFormats =
+    "give an OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran or 3MF file";
+
+bool has_extension(const SurfaceFormat& format, const std::string& extension) {
+  const std::string all = std::string(format.extensions) + " ";
+  return !extension.empty() && all.find(extension + " ") != std::string::npos;
+}
 
 /// The first words of real OBJ files. Rarer ones alone do not prove the format; the extension does.
 bool is_obj_keyword(std::string_view token) {
@@ -46,15 +60,24 @@ bool is_text_stl(const FileBytes& file, std::string_view first_token) {
   return false;
 }
 
+bool is_xml_of_vtk(std::string_view bytes) {
+  return bytes.substr(0, 1024).find("<VTKFile") != std::string_view::npos;
+}
+
 /// In an order that settles doubts: magic words, then an exact size, then words a header might hold
 /// by chance. Binary STL comes before text STL because many binary files begin with "solid".
 std::optional<SurfaceFormat> find_format_by_content(const FileBytes& file) {
   const std::string_view bytes = file.bytes;
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return kPly;
+  if (bytes.starts_with("# vtk DataFile")) return kVtk;
+  if (is_zip(bytes)) return k3mf;
   const std::string_view first = TextScanner(bytes, file.name).token();
+  if (is_xml_of_vtk(bytes)) return kVtp;
   if (is_off_keyword(first)) return kOff;
   if (is_exact_binary_stl(bytes)) return kStlBinary;
   if (is_text_stl(file, first)) return kStlText;
+  if (first == "$MeshFormat") return kGmsh;
+  if (first == "GRID" || first == "GRID*" || first.starts_with("GRID,")) return kNastran;
   if (is_obj_keyword(first)) return kObj;
   return std::nullopt;
 }
@@ -64,6 +87,7 @@ std::optional<SurfaceFormat> find_format_by_extension(const FileBytes& file,
   if (extension == ".obj") return kObj;
   if (extension == ".off") return kOff;
   if (extension == ".stl") return kStlBinary;
+  if (has_extension(kNastran, extension)) return kNastran;
   if (extension == ".ply")
     throw bad_file(file.name,
                    "the file does not begin with 'ply': it is no PLY file; export it again");
@@ -74,21 +98,18 @@ std::optional<SurfaceFormat> find_format_by_extension(const FileBytes& file,
 SurfaceFormat find_format(const FileBytes& file, const std::string& extension,
                           std::vector<std::string>& warnings) {
   if (file.bytes.empty()) throw bad_file(file.name, "the file is empty; export it again");
-  if (file.bytes.starts_with("PK\x03\x04"))
-    throw bad_file(file.name,
-                   "the content is a ZIP archive, whatever the name says; unpack it and give the "
-                   "OBJ, OFF, STL or PLY file in it");
   if (const auto found = find_format_by_content(file)) {
-    if (extension != found->extension)
+    if (!has_extension(*found, extension))
       warnings.push_back(
           std::string("the content is ") + found->name + " although the name ends in " +
           (extension.empty() ? "nothing" : "'" + extension + "'") + "; read as " + found->name);
     return *found;
   }
   if (const auto assumed = find_format_by_extension(file, extension)) return *assumed;
-  throw bad_file(file.name,
-                 "neither the content nor the extension is that of a surface format; "
-                 "give an OBJ, OFF, STL or PLY file");
+  throw bad_file(
+      file.name,
+      std::string("neither the content nor the extension is that of a surface format; ") +
+          kKnownFormats);
 }
 
 /// The name of a triangle's group, "" without one.

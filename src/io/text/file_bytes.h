@@ -8,6 +8,9 @@
 
 namespace hexwright::io {
 
+/// Largest number of vertices or elements that 32-bit ids allow.
+inline constexpr std::size_t kMaxElements = 0x7ffffff0;
+
 struct FileBytes {
   std::string name;         ///< as the caller gave it
   std::string bytes;        ///< the whole content, unpacked
