@@ -43,6 +43,10 @@ void check_arguments(const PolycubeMapCommand& cmd) {
     throw Error(ErrorCode::BadArgument,
                 "nothing to write; give -o for the hex mesh, or --object and --polycube for the "
                 "pair of tet meshes");
+  if (cmd.outputs.mesh.empty() &&
+      !(cmd.outputs.report.empty() && cmd.outputs.picture.empty() && cmd.outputs.grid.empty()))
+    throw Error(ErrorCode::BadArgument,
+                "--report, --picture and --save-grid are of the hex mesh; give -o too");
   check_outputs({cmd.object, cmd.polycube, cmd.outputs.mesh, cmd.outputs.report,
                  cmd.outputs.picture, cmd.outputs.grid},
                 {cmd.surface, cmd.labels});
@@ -56,19 +60,19 @@ void run(const PolycubeMapCommand& cmd, Program& program) {
   const Context context = program.console.start(cmd.surface);
   const TriMesh surface = load_surface(cmd.surface, program);
   const auto labels = read_labelling(cmd.labels, surface.num_tris());
+  const std::string inputs = fmt::format("{}, {}", cmd.surface, cmd.labels);
   const PolycubeMap map = naming_file(
-      cmd.labels, [&] { return make_polycube_map(surface, labels, cmd.map_options, context); });
+      inputs, [&] { return make_polycube_map(surface, labels, cmd.map_options, context); });
   program.console.clear_progress();
   if (!cmd.object.empty()) {
     write_tet_mesh(cmd.object, map.object);
     write_tet_mesh(cmd.polycube, map.polycube);
   }
   print_map(cmd, map, program.console);
-  for (const std::string& w : map.warnings) program.console.warn(cmd.surface + ": " + w);
   if (cmd.outputs.mesh.empty()) return;
   const PolycubeResult result = naming_file(
-      cmd.labels, [&] { return mesh_polycube(map.object, map.polycube, cmd.options, context); });
-  finish_polycube(cmd.outputs, cmd.labels, result, program);
+      inputs, [&] { return mesh_polycube(map.object, map.polycube, cmd.options, context); });
+  finish_polycube(cmd.outputs, inputs, result, program);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 Usage: cli_test.py BINARY SOURCE_DIR [unittest arguments]. CTest runs each class as one case.
 """
+import itertools
 import json
 import math
 import os
@@ -338,6 +339,24 @@ class PolycubeMap(CliTest):
         self.assertEqual(told["polycube"]["charts"], 6)
         self.assertEqual(told["polycube"]["nonpositive_tets_polycube"], 0)
 
+    def test_each_warning_is_said_once(self):
+        steps, verts, faces = 6, {}, []
+        for axis, sign, i, j in itertools.product(range(3), (1, -1), range(steps), range(steps)):
+            quad = []
+            for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))[::sign]:
+                p = [0, 0, 0]
+                p[axis], p[axis - 2], p[axis - 1] = sign * steps, 2 * (i + a) - steps, 2 * (j + b) - steps
+                quad.append(verts.setdefault(tuple(x / math.hypot(*p) for x in p), len(verts) + 1))
+            faces.append(quad)
+        ball = self.path / "ball.obj"
+        ball.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in verts) +
+                        "".join(f"f {a} {b} {c}\nf {a} {c} {d}\n" for a, b, c, d in faces))
+        labels = self.labels([2 * axis + (sign < 0) for axis in range(3) for sign in (1, -1) for _ in range(2 * steps**2)])
+        pair = ["--object", self.path / "o.mesh", "--polycube", self.path / "p.mesh"]
+        said = self.run_binary("polycube-map", ball, labels, *pair, "--tolerance", "1%", "--map-hexes", "600").stderr
+        self.assertIn("ball.obj: refinement stops", said)
+        self.assertEqual(len(said.splitlines()), len(set(said.splitlines())), said)
+
     def test_what_is_wrong_is_said_with_the_remedy(self):
         mesh = self.path / "m.vtu"
         few = self.run_binary("polycube-map", self.cube, self.labels(self.LABELS[:-1]), "-o", mesh, expect=3).stderr
@@ -347,6 +366,10 @@ class PolycubeMap(CliTest):
         self.assertRegex(said, r"labels.txt: .*faces [+-]x and [+-]x share an edge at \(.*put a face of another axis")
         nothing = self.run_binary("polycube-map", self.cube, self.labels(self.LABELS), expect=2).stderr
         self.assertIn("nothing to write", nothing)
+        pair = ["--object", self.path / "o.mesh", "--polycube", self.path / "p.mesh"]
+        for option in ("--report", "--picture", "--save-grid"):
+            said = self.run_binary("polycube-map", self.cube, self.labels(self.LABELS), *pair, option, mesh, expect=2).stderr
+            self.assertIn("are of the hex mesh; give -o too", said)
         self.assertFalse(mesh.exists())
 
 

@@ -2,21 +2,71 @@
 #include "hexwright/io/atomic_file.h"
 
 #include <atomic>
+#include <cerrno>
+#include <functional>
+#include <string_view>
+#include <utility>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
 #include "io/temp_folder.h"
 #include "io/text/folder_output.h"
-#include "io/text/part_folder.h"
+
+namespace {
+
+/// What the file system cannot do, and what happens once, when something whose name ends so is
+/// about to be renamed.
+struct FileSystem {
+  bool has_exchange = true, has_locks = true;
+  const char* renamed = "";
+  std::function<void()> before_rename;
+};
+FileSystem file_system;
+
+int change_name(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+  if (file_system.before_rename && std::string_view(from).ends_with(file_system.renamed))
+    std::exchange(file_system.before_rename, nullptr)();
+  return static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+}
+
+}  // namespace
+
+// In place of the C library's.
+extern "C" int rename(const char* from, const char* to) noexcept {
+  return change_name(AT_FDCWD, from, AT_FDCWD, to, 0);
+}
+extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+                         unsigned flags) noexcept {
+  if (file_system.has_exchange) return change_name(from_folder, from, to_folder, to, flags);
+  errno = EINVAL;
+  return -1;
+}
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"  // a struct has this name too
+extern "C" int flock(int file, int operation) noexcept {
+  if (file_system.has_locks) return static_cast<int>(syscall(SYS_flock, file, operation));
+  errno = ENOLCK;
+  return -1;
+}
+#pragma GCC diagnostic pop
 
 namespace hexwright {
 namespace {
 
 namespace fs = std::filesystem;
 using test::TempFolder;
+
+/// The usual file system again at the end of a test.
+struct AtomicFolder : testing::Test {
+  void TearDown() override { file_system = {}; }
+};
 
 TEST(AtomicFile, ReplacesTheWholeContentAndLeavesNothingElse) {
   const TempFolder folder;
@@ -99,7 +149,7 @@ TEST(AtomicFile, LargeFilesAreWrittenWhole) {
   EXPECT_TRUE(test::slurp(folder / "a.txt") == content);
 }
 
-TEST(AtomicFolder, TakesThePlaceOfTheOldOneAndOfWhatKilledRunsLeft) {
+TEST_F(AtomicFolder, TakesThePlaceOfTheOldOneAndOfWhatKilledRunsLeft) {
   const TempFolder folder;
   fs::create_directories(folder / ".case.0.part");
   folder.write(".case.0.part/points", "half");
@@ -110,7 +160,7 @@ TEST(AtomicFolder, TakesThePlaceOfTheOldOneAndOfWhatKilledRunsLeft) {
   EXPECT_EQ(folder.num_files(), 1u);
 }
 
-TEST(AtomicFolder, FailuresLeaveTheOldOneAndNothingElse) {
+TEST_F(AtomicFolder, FailuresLeaveTheOldOneAndNothingElse) {
   const TempFolder folder;
   io::write_folder_atomically(folder / "case", {{"points", "1"}});
   const std::atomic<bool> is_cancelled = true;
@@ -121,16 +171,60 @@ TEST(AtomicFolder, FailuresLeaveTheOldOneAndNothingElse) {
 }
 
 // What a handler of signals calls before it ends the program.
-TEST(AtomicFolder, IsRemovedByTheHandler) {
+TEST_F(AtomicFolder, IsRemovedByTheHandler) {
   const TempFolder folder;
-  fs::create_directories(folder / ".case.0.part");
-  folder.write(".case.0.part/points", "half");
-  const io::PartFolder part{
-      (folder / ".case.0.part").string(),
-      {(folder / ".case.0.part/points").string(), (folder / ".case.0.part/faces").string()}};
-  io::watch_part_folder(&part);
-  remove_part_file();
-  io::watch_part_folder(nullptr);
+  io::write_folder_atomically(folder / "case", {{"points", "1"}, {"faces", "2"}});
+  std::size_t num_left = 0;
+  file_system.renamed = "case.0.part";
+  file_system.before_rename = [&] {
+    remove_part_file();
+    num_left = folder.num_files();
+  };
+  EXPECT_THROW(io::write_folder_atomically(folder / "case", {{"points", "3"}, {"faces", "4"}}),
+               Error);
+  EXPECT_EQ(num_left, 1u);
+  EXPECT_EQ(test::slurp(folder / "case/points"), "1");
+}
+
+TEST_F(AtomicFolder, TakesItsPlaceWhereNamesCannotBeExchanged) {
+  const TempFolder folder;
+  file_system.has_exchange = false;
+  fs::create_directories(folder / ".case.0.part.old");  // of a run that was killed
+  folder.write(".case.0.part.old/points", "0");
+  io::write_folder_atomically(folder / "case", {{"points", "1"}});
+  // A signal between the two renames: the new folder is the only one that has a name.
+  file_system.renamed = "case.0.part";
+  file_system.before_rename = [] { remove_part_file(); };
+  io::write_folder_atomically(folder / "case", {{"points", "2"}});
+  EXPECT_EQ(test::slurp(folder / "case/points"), "2");
+  EXPECT_EQ(folder.num_files(), 1u);
+}
+
+TEST_F(AtomicFolder, IsWrittenWhereNothingCanBeLocked) {
+  const TempFolder folder;
+  file_system.has_locks = false;
+  io::write_folder_atomically(folder / "case", {{"points", "1"}});
+  EXPECT_EQ(test::slurp(folder / "case/points"), "1");
+  EXPECT_EQ(folder.num_files(), 1u);
+}
+
+TEST_F(AtomicFolder, TooManyOpenFilesAreSaidAndLeaveNothing) {
+  const TempFolder folder;
+  rlimit usual = {};
+  getrlimit(RLIMIT_NOFILE, &usual);
+  const int next = open("/dev/null", O_RDONLY);
+  close(next);
+  const rlimit none = {static_cast<rlim_t>(next), usual.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none);
+  std::string said;
+  try {
+    io::write_folder_atomically(folder / "case", {{"points", "1"}});
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  setrlimit(RLIMIT_NOFILE, &usual);
+  EXPECT_NE(said.find("cannot write the folder: Too many open files; check"), std::string::npos)
+      << said;
   EXPECT_EQ(folder.num_files(), 0u);
 }
 

@@ -157,6 +157,13 @@ TEST(HexMeshIo, WhatCannotBeWrittenIsRefusedAndLeavesNothing) {
   WriteHexOptions options;
   options.fields.push_back({"short", {}});
   EXPECT_THROW(write_hex_mesh(folder / "a.vtu", mesh, options), Error);
+  options.write_sets = true;
+  for (const char* name : {"", "a b", "a/b", "region", "patch"}) {
+    options.fields = {{name, {1}}};
+    EXPECT_THROW(write_hex_mesh(folder / "a.vtkhdf", mesh, options), Error) << name;
+  }
+  options.fields = {{"twice", {1}}, {"twice", {2}}};
+  EXPECT_THROW(write_hex_mesh(folder / "a.vtkhdf", mesh, options), Error);
   EXPECT_THROW(write_hex_mesh(folder / "a.xyz", mesh), Error);
   EXPECT_THROW(write_hex_mesh(folder / "no_folder/a.vtu", mesh), Error);
   mesh.hexes[HexId(0)][3] = VertId(8);

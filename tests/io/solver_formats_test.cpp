@@ -1,10 +1,14 @@
 // Rules of the formats of solvers that their readers rely on.
+#include "io/solver/solver_formats.h"
+
 #include <algorithm>
+#include <atomic>
 #include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/io/mesh_io.h"
 
@@ -179,6 +183,31 @@ TEST(SolverFormats, UnknownOnesAreNamed) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("gmsh2"), std::string::npos);
   }
+}
+
+TEST(SolverFormats, APatchCalledAPointIsNoGroupOfCgns) {
+  const TempFolder folder;
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  mesh.labels.quads.push_back(
+      {face_verts(mesh, compute_hex_neighbors(mesh).boundary[0]), PatchId(0)});
+  mesh.labels.patch_names = {"."};
+  const auto changed = write_hex_mesh(folder / "a.cgns", mesh).changed_names;
+  ASSERT_EQ(changed.size(), 1u);
+  EXPECT_EQ(changed[0].written, "._2");
+}
+
+TEST(SolverFormats, EveryWriterLooksAtTheCallersFlag) {
+  const HexMesh mesh = test::box_hex_mesh(12, 12, 12);
+  const io::NodeTable nodes(mesh, 8);
+  const SetTable table = make_set_table(mesh);
+  const std::atomic<bool> is_cancelled = true;
+  const CancelScope scope(&is_cancelled);
+  for (auto* write : {io::abaqus_text, io::ansys_text, io::cgns_bytes, io::exodus_bytes,
+                      io::med_bytes, io::mfem_text, io::nastran_text})
+    EXPECT_THROW(write(nodes, table), Error);
+  for (auto* write : {io::lsdyna_text, io::su2_text}) EXPECT_THROW(write(mesh, table), Error);
+  EXPECT_THROW(io::vtkhdf_bytes(nodes, table, {}), Error);
+  EXPECT_THROW(io::openfoam_files(mesh, table), Error);
 }
 
 }  // namespace

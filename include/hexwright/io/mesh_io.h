@@ -15,7 +15,7 @@ namespace hexwright {
 
 /// One value per hex, written as cell data by formats that have it.
 struct HexField {
-  std::string name;
+  std::string name;  ///< without blanks, quotes and slashes; not "region", which files have already
   std::vector<double> values;
 };
 

@@ -144,6 +144,20 @@ std::string content_of(const VolumeFile& file) {
                   "other elements");
 }
 
+/// Names that no format has to escape, and that are no array's of the writers.
+void check_field_name(const HexField& field, const WriteHexOptions& options) {
+  const std::string& name = field.name;
+  const auto refuse = [&](const char* what) {
+    throw Error(ErrorCode::BadArgument, "the field name '" + name + "' " + what);
+  };
+  if (name.empty() || name.find_first_of(" \t\r\n\"<>&/") != std::string::npos)
+    refuse("is empty or has blanks, quotes or slashes");
+  if (name == "region" || (options.write_sets && (name == "patch" || name == "curve")))
+    refuse("is that of the mesh's own numbers in the file; give another");
+  if (std::ranges::count(options.fields, name, &HexField::name) > 1)
+    refuse("is given twice; give each field its own");
+}
+
 /// Before a byte is written, so that a refused mesh leaves no file behind.
 void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
   constexpr std::size_t kMostHexes = 200'000'000;  // 32-bit offsets of the formats
@@ -157,9 +171,7 @@ void check_writable(const HexMesh& mesh, const WriteHexOptions& options) {
                                               std::to_string(field.values.size()) + " values for " +
                                               std::to_string(mesh.num_hexes()) +
                                               " hexes; give one value per hex");
-    if (field.name.empty() || field.name.find_first_of(" \t\r\n\"<>&") != std::string::npos)
-      throw Error(ErrorCode::BadArgument,
-                  "the field name '" + field.name + "' is empty or has blanks or quotes");
+    check_field_name(field, options);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/text/file_bytes.h"
 #include "io/text/text_writer.h"
+#include "io/vtk/vtk_types.h"
 
 namespace hexwright {
 namespace {
@@ -19,7 +20,6 @@ std::string medit_tets(const TetMesh& mesh) {
 }
 
 std::string vtk_tets(const TetMesh& mesh) {
-  constexpr const char* kVtkTetra = "10\n";
   io::TextWriter out;
   out.text("# vtk DataFile Version 3.0\nhexwright\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
   out.integer(mesh.num_verts()).text(" double\n");
@@ -27,7 +27,7 @@ std::string vtk_tets(const TetMesh& mesh) {
   out.text("CELLS ").integer(mesh.num_tets()).text(" ").integer(5 * mesh.num_tets()).text("\n");
   for (const auto& tet : mesh.tets) out.text("4 ").indices(tet, 0).text("\n");
   out.text("CELL_TYPES ").integer(mesh.num_tets()).text("\n");
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t) out.text(kVtkTetra);
+  for (std::size_t t = 0; t < mesh.num_tets(); ++t) out.integer(int{io::VtkTetra}).text("\n");
   return out.take();
 }
 

@@ -306,16 +306,6 @@ void add_names(const SetTable& table, VtkOutput& out) {
   for (VtkOutArray& name : names) out.field_data.push_back(std::move(name));
 }
 
-/// Types of cells for each number of nodes per hex.
-struct VtkTypes {
-  VtkCellType line, quad, hex;
-};
-VtkTypes vtk_types(int nodes_per_hex) {
-  if (nodes_per_hex == 27) return {VtkQuadraticEdge, VtkBiquadraticQuad, VtkTriquadraticHexahedron};
-  if (nodes_per_hex == 20) return {VtkQuadraticEdge, VtkQuadraticQuad, VtkQuadraticHexahedron};
-  return {VtkLine, VtkQuad, VtkHexahedron};
-}
-
 /// Our local order of all kinds is that of VTK.
 template <class Verts>
 void add_out_cell(const Verts& verts, VtkCellType type, VtkOutput& out) {

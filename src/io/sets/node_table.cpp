@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
 namespace hexwright::io {
@@ -77,26 +78,30 @@ NodeList NodeTable::edge(const std::array<VertId, 2>& verts) const {
   return nodes;
 }
 
-std::vector<VertId> NodeTable::set_nodes(const NamedSet& set) const {
-  if (is_linear()) return hexwright::set_nodes(mesh_, set);
-  std::vector<VertId> nodes;
-  const auto append = [&](const NodeList& list) {
-    nodes.insert(nodes.end(), list.begin(), list.end());
-  };
-  for (std::size_t i : set.members) switch (set.kind) {
-      case SetKind::Region:
-        append(hex(HexId(i)));
-        break;
-      case SetKind::Curve:
-        append(edge(mesh_.labels.edges[i].verts));
-        break;
-      case SetKind::Corners:
-        nodes.push_back(mesh_.labels.corners[i]);
-        break;
-      case SetKind::Patch:
-      case SetKind::PatchGroup:
-        append(quad(mesh_.labels.quads[i].verts));
+NodeList NodeTable::element(SetKind kind, std::size_t member) const {
+  switch (kind) {
+    case SetKind::Region:
+      return hex(HexId(member));
+    case SetKind::Curve:
+      return edge(mesh_.labels.edges[member].verts);
+    case SetKind::Corners: {
+      NodeList node;
+      node.push_back(mesh_.labels.corners[member]);
+      return node;
     }
+    default:
+      return quad(mesh_.labels.quads[member].verts);
+  }
+}
+
+std::vector<VertId> NodeTable::set_nodes(const NamedSet& set) const {
+  std::vector<VertId> nodes;
+  CancelCheck check_cancelled;
+  for (std::size_t i : set.members) {
+    check_cancelled();
+    const NodeList list = element(set.kind, i);
+    nodes.insert(nodes.end(), list.begin(), list.end());
+  }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -54,6 +54,8 @@ class NodeTable {
   NodeList quad(const std::array<VertId, 4>& verts) const;
   /// Of an edge of a hex: ends, middle.
   NodeList edge(const std::array<VertId, 2>& verts) const;
+  /// Of a member of a set of this kind.
+  NodeList element(SetKind kind, std::size_t member) const;
   /// The nodes of a set's elements, increasing, each once.
   std::vector<VertId> set_nodes(const NamedSet& set) const;
   /// The node in the middle of a hex's face. Requires 27 nodes per hex.

@@ -9,6 +9,8 @@
 // R8, C1 or MT; lengths stand in the opposite order).
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/solver/solver_formats.h"
 #include "io/text/hdf5_writer.h"
 
@@ -56,17 +58,16 @@ class CgnsWriter {
     node.attribute("label", hdf5_text(label, kNameLength + 1));
     node.attribute("type", hdf5_text(type, 3));
   }
-  static Hdf5Node& add(Hdf5Node& parent, const std::string& name, const std::string& label) {
+  static Hdf5Node& add(Hdf5Node& parent, const std::string& name, const std::string& label,
+                       const std::string& type = "MT") {
     Hdf5Node& node = parent.child(name);
-    describe(node, name, label, "MT");
+    describe(node, name, label, type);
     node.attribute("flags", hdf5_ints(std::array{1}, {1}));
     return node;
   }
   static Hdf5Node& add(Hdf5Node& parent, const std::string& name, const std::string& label,
                        const std::string& type, Hdf5Array data) {
-    Hdf5Node& node = parent.child(name);
-    describe(node, name, label, type);
-    node.attribute("flags", hdf5_ints(std::array{1}, {1}));
+    Hdf5Node& node = add(parent, name, label, type);
     node.dataset(" data", std::move(data));
     return node;
   }
@@ -112,7 +113,9 @@ class CgnsWriter {
   void write_hexes(Hdf5Node& zone, const NamedSet& set) {
     const auto size = static_cast<std::size_t>(nodes_.nodes_per_hex());
     Ints nodes;
+    CancelCheck check_cancelled;
     for (std::size_t h : set.members) {
+      check_cancelled();
       const NodeList list = nodes_.hex(HexId(h));
       for (std::size_t k = 0; k < size; ++k)
         nodes.push_back(list[k < 20 ? kUprightEdgesFirst[k] : kInnerOrder[k - 20]].value() + 1);
@@ -127,7 +130,9 @@ class CgnsWriter {
   void write_patch(Hdf5Node& zone, Hdf5Node& conditions, const NamedSet& set) {
     Ints nodes;
     std::size_t size = 4;
+    CancelCheck check_cancelled;
     for (std::size_t q : set.members) {
+      check_cancelled();
       const NodeList list = nodes_.quad(nodes_.mesh().labels.quads[q].verts);
       size = list.size();
       for (VertId v : list) nodes.push_back(v.value() + 1);
@@ -168,7 +173,7 @@ NameRules cgns_names() {
   NameRules rules;
   rules.max_length = kNameLength;
   rules.is_allowed = is_word_letter_or_mark;
-  rules.reserved = {"Zone", "ZoneType", "ZoneBC", "GridCoordinates"};
+  rules.reserved = {".", "Zone", "ZoneType", "ZoneBC", "GridCoordinates"};
   return rules;
 }
 

@@ -8,6 +8,8 @@
 // writes. Hexes are counted the other way round than VTK's: 0 3 2 1 4 7 6 5.
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/solver/solver_formats.h"
 #include "io/text/hdf5_writer.h"
 
@@ -84,6 +86,15 @@ class MedWriter {
     add(group, "FAM", hdf5_ints(families, {families.size()}), nodes_.size());
   }
 
+  /// A patch such as "wall.1" belongs to "wall" too.
+  std::vector<std::string> groups_of(const NamedSet& set) const {
+    std::vector<std::string> groups{set.name};
+    if (set.kind == SetKind::Patch)
+      for (const NamedSet& group : table_.patch_groups)
+        if (is_in_group(set, group)) groups.push_back(group.name);
+    return groups;
+  }
+
   /// Counted downwards from -1; 0 is that of elements without a group.
   std::int32_t add_family(Hdf5Node& families, const std::vector<std::string>& groups) {
     const std::int32_t number = --last_family_;
@@ -99,62 +110,30 @@ class MedWriter {
   void write_families(Hdf5Node& families, Hdf5Node& elements) {
     families.child("FAMILLE_ZERO").attribute("NUM", hdf5_int(0));
     elements.attribute("CGT", hdf5_int(1));
-    write_corners(families, elements);
-    write_curves(families, elements);
-    write_patches(families, elements);
-    Elements hexes;
-    for (const NamedSet& set : table_.regions) {
-      const std::int32_t family = add_family(families, {set.name});
-      for (std::size_t h : set.members) {
-        const NodeList list = nodes_.hex(HexId(h));
-        append(list, family, hexes, kHexOrder.data());
+    const bool is_linear = nodes_.is_linear();
+    write(elements, "PO1", gather(families, table_.corners));
+    write(elements, is_linear ? "SE2" : "SE3", gather(families, table_.curves));
+    write(elements, is_linear ? "QU4" : "QU8", gather(families, table_.patches));
+    write(elements, is_linear ? "HE8" : "H20", gather(families, table_.regions));
+  }
+
+  /// All elements of sets of one kind, a family for each set.
+  Elements gather(Hdf5Node& families, const std::vector<NamedSet>& sets) {
+    Elements elements;
+    CancelCheck check_cancelled;
+    for (const NamedSet& set : sets) {
+      const std::int32_t family = add_family(families, groups_of(set));
+      for (std::size_t i : set.members) {
+        check_cancelled();
+        const NodeList list = nodes_.element(set.kind, i);
+        elements.size = list.size();
+        elements.families.push_back(family);
+        for (std::size_t k = 0; k < list.size(); ++k)
+          elements.nodes.push_back(list[set.kind == SetKind::Region ? kHexOrder[k] : k].value() +
+                                   1);
       }
     }
-    write(elements, nodes_.is_linear() ? "HE8" : "H20", hexes);
-  }
-
-  void write_patches(Hdf5Node& families, Hdf5Node& elements) {
-    Elements quads;
-    for (const NamedSet& set : table_.patches) {
-      std::vector<std::string> groups{set.name};
-      for (const NamedSet& group : table_.patch_groups)
-        if (is_in_group(set, group)) groups.push_back(group.name);
-      const std::int32_t family = add_family(families, groups);
-      for (std::size_t q : set.members)
-        append(nodes_.quad(nodes_.mesh().labels.quads[q].verts), family, quads);
-    }
-    write(elements, nodes_.is_linear() ? "QU4" : "QU8", quads);
-  }
-
-  void write_curves(Hdf5Node& families, Hdf5Node& elements) {
-    Elements edges;
-    for (const NamedSet& set : table_.curves) {
-      const std::int32_t family = add_family(families, {set.name});
-      for (std::size_t e : set.members)
-        append(nodes_.edge(nodes_.mesh().labels.edges[e].verts), family, edges);
-    }
-    write(elements, nodes_.is_linear() ? "SE2" : "SE3", edges);
-  }
-
-  void write_corners(Hdf5Node& families, Hdf5Node& elements) {
-    Elements points;
-    for (const NamedSet& set : table_.corners) {
-      const std::int32_t family = add_family(families, {set.name});
-      for (std::size_t c : set.members) {
-        NodeList list;
-        list.push_back(nodes_.mesh().labels.corners[c]);
-        append(list, family, points);
-      }
-    }
-    write(elements, "PO1", points);
-  }
-
-  static void append(const NodeList& list, std::int32_t family, Elements& elements,
-                     const std::size_t* order = nullptr) {
-    elements.size = list.size();
-    elements.families.push_back(family);
-    for (std::size_t k = 0; k < list.size(); ++k)
-      elements.nodes.push_back(list[order ? order[k] : k].value() + 1);
+    return elements;
   }
 
   static void write(Hdf5Node& parent, const char* shape, const Elements& elements) {

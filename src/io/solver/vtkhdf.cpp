@@ -2,44 +2,27 @@
 // own, for each region, patch, curve and the corners, under their names.
 //
 // Based on: Kitware, "VTKHDF File Format", version 2.1 (VTK 9.3): PartitionedDataSetCollection.
-#include <map>
+#include <algorithm>
+
+#include "hexwright/base/cancel.h"
 
 #include "io/solver/solver_formats.h"
 #include "io/text/hdf5_writer.h"
+#include "io/vtk/vtk_types.h"
 
 namespace hexwright::io {
 namespace {
 
-enum CellType : char {
-  Vertex = 1,
-  Line = 3,
-  Quad = 9,
-  Hexahedron = 12,
-  QuadraticEdge = 21,
-  QuadraticQuad = 23,
-  QuadraticHexahedron = 25,
-  BiquadraticQuad = 28,
-  TriquadraticHexahedron = 29
-};
-
 class VtkhdfWriter {
  public:
   VtkhdfWriter(const NodeTable& nodes, const SetTable& table)
-      : nodes_(nodes), mesh_(nodes.mesh()), table_(table), top_(root_.child("VTKHDF")) {}
+      : nodes_(nodes), table_(table), top_(root_.child("VTKHDF")) {}
 
   std::string run(const std::vector<HexField>& fields) {
     describe(top_, "PartitionedDataSetCollection");
-    for (const NamedSet& set : table_.regions) write_region(set, fields);
-    for (const NamedSet& set : table_.patches)
-      write_set(set, [&](std::size_t q) { return nodes_.quad(mesh_.labels.quads[q].verts); });
-    for (const NamedSet& set : table_.curves)
-      write_set(set, [&](std::size_t e) { return nodes_.edge(mesh_.labels.edges[e].verts); });
-    for (const NamedSet& set : table_.corners)
-      write_set(set, [&](std::size_t c) {
-        NodeList list;
-        list.push_back(mesh_.labels.corners[c]);
-        return list;
-      });
+    for (const NamedSet& set : table_.regions) write_fields(write_set(set), set, fields);
+    for (const auto* sets : {&table_.patches, &table_.curves, &table_.corners})
+      for (const NamedSet& set : *sets) write_set(set);
     Hdf5Node& assembly = top_.child("Assembly");
     for (const std::string& name : names_) assembly.soft_link(name, "/VTKHDF/" + name);
     return root_.file();
@@ -60,21 +43,23 @@ class VtkhdfWriter {
     return grid;
   }
 
-  static char type_of(SetKind kind, std::size_t size) {
+  VtkCellType type_of(SetKind kind) const {
+    const VtkTypes types = vtk_types(nodes_.nodes_per_hex());
     switch (kind) {
       case SetKind::Region:
-        return size == 8 ? Hexahedron : size == 20 ? QuadraticHexahedron : TriquadraticHexahedron;
+        return types.hex;
       case SetKind::Curve:
-        return size == 2 ? Line : QuadraticEdge;
+        return types.line;
       case SetKind::Corners:
-        return Vertex;
+        return VtkVertex;
       default:
-        return size == 4 ? Quad : size == 8 ? QuadraticQuad : BiquadraticQuad;
+        return types.quad;
     }
   }
 
   static void write_cells(Hdf5Node& grid, const std::vector<Vec3>& points,
-                          const std::vector<std::int64_t>& nodes, std::size_t size, char type) {
+                          const std::vector<std::int64_t>& nodes, std::size_t size,
+                          VtkCellType type) {
     const std::size_t count = nodes.size() / size;
     std::vector<std::int64_t> offsets;
     for (std::size_t i = 0; i <= count; ++i) offsets.push_back(static_cast<std::int64_t>(i * size));
@@ -91,11 +76,11 @@ class VtkhdfWriter {
     grid.dataset("Points", hdf5_doubles(coordinates, {points.size(), 3}));
     grid.dataset("Connectivity", hdf5_longs(nodes, {nodes.size()}));
     grid.dataset("Offsets", hdf5_longs(offsets, {offsets.size()}));
-    grid.dataset("Types", hdf5_bytes(std::string(count, type), false));
+    grid.dataset("Types", hdf5_bytes(std::string(count, static_cast<char>(type)), false));
   }
 
-  void write_region(const NamedSet& set, const std::vector<HexField>& fields) {
-    Hdf5Node& grid = write_set(set, [&](std::size_t h) { return nodes_.hex(HexId(h)); });
+  static void write_fields(Hdf5Node& grid, const NamedSet& set,
+                           const std::vector<HexField>& fields) {
     const std::vector<std::int32_t> numbers(set.members.size(), set.number);
     Hdf5Node& data = grid.child("CellData");
     data.dataset("region", hdf5_ints(numbers, {numbers.size()}));
@@ -106,28 +91,26 @@ class VtkhdfWriter {
     }
   }
 
-  template <class Nodes>
-  Hdf5Node& write_set(const NamedSet& set, Nodes&& nodes_of) {
-    std::map<VertId, std::int64_t> number;
+  Hdf5Node& write_set(const NamedSet& set) {
+    const std::vector<VertId> verts = nodes_.set_nodes(set);
     std::vector<Vec3> points;
-    for (VertId v : nodes_.set_nodes(set)) {
-      number[v] = static_cast<std::int64_t>(points.size());
-      points.push_back(nodes_.positions()[v]);
-    }
+    for (VertId v : verts) points.push_back(nodes_.positions()[v]);
     std::vector<std::int64_t> nodes;
     std::size_t size = 1;
+    CancelCheck check_cancelled;
     for (std::size_t i : set.members) {
-      const NodeList list = nodes_of(i);
+      check_cancelled();
+      const NodeList list = nodes_.element(set.kind, i);
       size = list.size();
-      for (VertId v : list) nodes.push_back(number.at(v));
+      for (VertId v : list)
+        nodes.push_back(std::lower_bound(verts.begin(), verts.end(), v) - verts.begin());
     }
     Hdf5Node& grid = add_grid(set.name);
-    write_cells(grid, points, nodes, size, type_of(set.kind, size));
+    write_cells(grid, points, nodes, size, type_of(set.kind));
     return grid;
   }
 
   const NodeTable& nodes_;
-  const HexMesh& mesh_;
   const SetTable& table_;
   Hdf5Node root_;
   Hdf5Node& top_;

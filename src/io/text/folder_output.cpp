@@ -39,32 +39,13 @@ void check_replaceable(const fs::path& path, const std::vector<FolderFile>& file
   }
 }
 
-/// The folder when nobody else has it locked, else -1.
-int open_locked(const fs::path& folder) {
-  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (opened < 0 || flock(opened, LOCK_EX | LOCK_NB) == 0) return opened;
-  close(opened);
-  return -1;
+int open_folder(const fs::path& folder) {
+  return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-[[noreturn]] void fail_to_take(const fs::path& path) {
-  fail(path, "cannot write the folder: " + std::generic_category().message(errno));
-}
-
-/// At once where the file system can; else the old one steps aside first, and comes back when the
-/// new one cannot take its place.
-void exchange(const std::string& part, const fs::path& path) {
-  if (renameat2(AT_FDCWD, part.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
-  if (errno != EINVAL && errno != ENOSYS) fail_to_take(path);
-  const std::string aside = part + ".old";
-  if (std::rename(path.c_str(), aside.c_str()) != 0) fail_to_take(path);
-  if (std::rename(part.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    std::rename(aside.c_str(), path.c_str());
-    errno = reason;
-    fail_to_take(path);
-  }
-  std::rename(aside.c_str(), part.c_str());
+[[noreturn]] void fail_to_write(const fs::path& path, int reason) {
+  fail(path, "cannot write the folder: " + std::generic_category().message(reason) +
+                 "; check that the folder around it exists, is writable and has space left");
 }
 
 /// A new folder beside the target. It stays locked while the object lives: those of other runs that
@@ -79,8 +60,8 @@ class PartFolderLock {
       remove_if_left();
       std::error_code error;
       const bool is_made = fs::create_directory(folder_.path, error);
-      if (error) fail(path, "cannot write the folder: " + error.message());
-      if (!is_made || !lock()) continue;
+      if (error) fail_to_write(path, error.value());
+      if (!is_made || !lock(path)) continue;
       watch(files);
       return;
     }
@@ -101,30 +82,58 @@ class PartFolderLock {
   void take_place(const fs::path& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
-      if (std::rename(folder_.path.c_str(), path.c_str()) != 0) fail_to_take(path);
+      if (std::rename(folder_.path.c_str(), path.c_str()) != 0) fail_to_write(path, errno);
       is_kept_ = true;
-    } else {
-      exchange(folder_.path, path);
+      return;
     }
+    const char* part = folder_.path.c_str();
+    if (renameat2(AT_FDCWD, part, AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
+    if (errno != EINVAL && errno != ENOSYS) fail_to_write(path, errno);
+    take_place_by_steps(path);
   }
 
  private:
   void remove_if_left() const {
-    const int left = open_locked(folder_.path);
+    const int left = open_folder(folder_.path);
     if (left < 0) return;
     std::error_code ignored;
-    fs::remove_all(folder_.path, ignored);
+    if (flock(left, LOCK_EX | LOCK_NB) == 0) fs::remove_all(folder_.path, ignored);
     close(left);
   }
 
-  /// False when another run took it for a left one before it was locked.
-  bool lock() {
-    opened_ = open_locked(folder_.path);
+  /// False when another run took it for a left one before it was locked. File systems without locks
+  /// do without.
+  bool lock(const fs::path& path) {
+    opened_ = open_folder(folder_.path);
+    if (opened_ < 0 && errno != ENOENT) {
+      const int reason = errno;
+      rmdir(folder_.path.c_str());
+      fail_to_write(path, reason);
+    }
     struct stat status = {};
-    if (opened_ >= 0 && fstat(opened_, &status) == 0 && status.st_nlink > 0) return true;
+    if (opened_ >= 0 && (flock(opened_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+        fstat(opened_, &status) == 0 && status.st_nlink > 0)
+      return true;
     if (opened_ >= 0) close(opened_);
     opened_ = -1;
     return false;
+  }
+
+  /// For file systems that exchange no names: the old one steps aside first, and comes back when
+  /// the new one cannot take its place. A program that ends meanwhile leaves both.
+  void take_place_by_steps(const fs::path& path) {
+    const std::string aside = folder_.path + ".old";
+    std::error_code ignored;
+    fs::remove_all(aside, ignored);  // of a run that was killed here
+    watch_part_folder(nullptr);
+    if (std::rename(path.c_str(), aside.c_str()) != 0) fail_to_write(path, errno);
+    if (std::rename(folder_.path.c_str(), path.c_str()) != 0) {
+      const int reason = errno;
+      std::rename(aside.c_str(), path.c_str());
+      fail_to_write(path, reason);
+    }
+    std::rename(aside.c_str(), folder_.path.c_str());
+    watch_part_folder(&folder_);
   }
 
   void watch(const std::vector<FolderFile>& files) {

@@ -5,6 +5,9 @@
 #include <bit>
 #include <string_view>
 
+#include "hexwright/base/assert.h"
+#include "hexwright/base/cancel.h"
+
 #include "io/text/byte_reader.h"
 
 namespace hexwright::io {
@@ -93,7 +96,12 @@ template <class Number>
 Hdf5Array numbers(std::string type, std::span<const Number> values,
                   std::vector<std::uint64_t> lengths) {
   Hdf5Array array{std::move(type), std::move(lengths), {}};
-  for (Number value : values) put(array.data, value);
+  array.data.reserve(values.size_bytes());
+  CancelCheck check_cancelled;
+  for (Number value : values) {
+    check_cancelled();
+    put(array.data, value);
+  }
   return array;
 }
 
@@ -221,6 +229,7 @@ Hdf5Node& Hdf5Node::child(const std::string& name) {
 
 Hdf5Node& Hdf5Node::dataset(const std::string& name, Hdf5Array array) {
   Hdf5Node& node = child(name);
+  HEXWRIGHT_ASSERT(!node.array_ && node.links_.empty());
   node.array_ = std::make_unique<Hdf5Array>(std::move(array));
   return node;
 }

@@ -44,6 +44,7 @@ class Hdf5Node {
  public:
   /// The child of this name, made when it is not there. Children keep the order of their making.
   Hdf5Node& child(const std::string& name);
+  /// A new child with an array.
   Hdf5Node& dataset(const std::string& name, Hdf5Array array);
   void attribute(const std::string& name, Hdf5Array array);
   /// To a path from the root.

@@ -1,6 +1,7 @@
 // The header is built twice: its length decides where the data begin, and it says so.
 #include "io/text/netcdf_writer.h"
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
 #include "io/text/byte_reader.h"
@@ -24,6 +25,18 @@ void put_name(std::string& out, const std::string& name) {
 void put_list(std::string& out, std::int32_t tag, std::size_t count) {
   put(out, count == 0 ? 0 : tag);
   put(out, static_cast<std::int32_t>(count));
+}
+
+template <class Number>
+std::string bytes_of(std::span<const Number> values) {
+  std::string bytes;
+  bytes.reserve(values.size_bytes());
+  CancelCheck check_cancelled;
+  for (Number value : values) {
+    check_cancelled();
+    store(bytes, value, ByteOrder::Big);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -68,18 +81,12 @@ void NetcdfWriter::add(Variable&& variable) {
 
 void NetcdfWriter::ints(const std::string& name, const std::vector<std::int32_t>& dimensions,
                         std::span<const std::int32_t> data, const TextAttribute& text) {
-  Variable v{name, dimensions, text, Int, {}, 0};
-  v.data.reserve(4 * data.size());
-  for (std::int32_t value : data) put(v.data, value);
-  add(std::move(v));
+  add({name, dimensions, text, Int, bytes_of(data), 0});
 }
 
 void NetcdfWriter::doubles(const std::string& name, const std::vector<std::int32_t>& dimensions,
                            std::span<const double> data) {
-  Variable v{name, dimensions, {}, Double, {}, 0};
-  v.data.reserve(8 * data.size());
-  for (double value : data) store(v.data, value, ByteOrder::Big);
-  add(std::move(v));
+  add({name, dimensions, {}, Double, bytes_of(data), 0});
 }
 
 void NetcdfWriter::record_doubles(const std::string& name, std::int32_t unlimited) {

@@ -12,28 +12,9 @@
 #include "hexwright/base/vec3.h"
 #include "hexwright/mesh/element_ids.h"
 
-namespace hexwright::io {
+#include "io/vtk/vtk_types.h"
 
-/// Numbers of VTK's cell types.
-enum VtkCellType : std::int32_t {
-  VtkVertex = 1,
-  VtkPolyVertex = 2,
-  VtkLine = 3,
-  VtkPolyLine = 4,
-  VtkTriangle = 5,
-  VtkTriangleStrip = 6,
-  VtkPolygon = 7,
-  VtkPixel = 8,
-  VtkQuad = 9,
-  VtkTetra = 10,
-  VtkVoxel = 11,
-  VtkHexahedron = 12,
-  VtkQuadraticEdge = 21,
-  VtkQuadraticQuad = 23,
-  VtkQuadraticHexahedron = 25,
-  VtkBiquadraticQuad = 28,
-  VtkTriquadraticHexahedron = 29
-};
+namespace hexwright::io {
 
 /// Every number type of the formats fits a double but for huge integers, which no index needs.
 struct VtkArray {
