@@ -29,9 +29,10 @@ PictureOptions choose_view(const PictureCommand& cmd, const HexMesh& mesh) {
     options.cut.reset();
   } else if (cmd.cut == "auto") {
     options = make_default_view(mesh);
-    options.cut->offset = cmd.cut_at.value_or(0.5);
+    if (cmd.cut_at) options.cut->offset = *cmd.cut_at;
   } else {
-    options = make_cut_view(cmd.cut[0] - 'x', cmd.cut_at.value_or(0.5));
+    const int axis = cmd.cut[0] - 'x';
+    options = make_cut_view(axis, cmd.cut_at ? *cmd.cut_at : find_clear_cut(mesh, axis));
   }
   if (cmd.by_patch) options.colors = PictureColors::Patches;
   return options;
@@ -70,7 +71,9 @@ void add_picture_command(CLI::App& app, Program& program) {
                   "Axis across which the mesh is cut open; auto: none with --by-patch")
       ->check(CLI::IsMember({"auto", "x", "y", "z", "none"}))
       ->capture_default_str();
-  sub->add_option("--cut-at", cmd->cut_at, "Place of the cut between the box's ends [0.5]")
+  sub->add_option(
+         "--cut-at", cmd->cut_at,
+         "Place of the cut between the box's ends [near the middle, clear of faces along it]")
       ->check(CLI::Range(0.0, 1.0));
   sub->add_flag("--by-patch", cmd->by_patch, "Colours and names of patches instead of quality");
   sub->add_flag("--sheet", cmd->as_sheet,

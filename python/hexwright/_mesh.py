@@ -254,15 +254,15 @@ class HexMesh:
         """A ``skfem.MeshHex`` with a boundary per patch and a subdomain per region."""
         return _convert.to_skfem(self)
 
-    def image(self, cut: str = "auto", at: float = 0.5, width: int = 800, height: int = 600) -> NDArray[np.uint8]:
+    def image(self, cut: str = "auto", at: float | None = None, width: int = 800, height: int = 600) -> NDArray[np.uint8]:
         """A picture drawn without a display: cut open, coloured by the scaled Jacobian.
 
         Parameters
         ----------
         cut : {"auto", "x", "y", "z", "none"}
             Axis across which the mesh is cut.
-        at : float
-            Place of the cut between the box's ends, 0 to 1.
+        at : float, optional
+            Place of the cut between the box's ends, 0 to 1; when left out, near the middle, clear of faces that lie along it.
         width, height : int
             Pixels, 16 to 16384.
 
@@ -272,7 +272,7 @@ class HexMesh:
         """
         if cut not in ("auto", "x", "y", "z", "none"):
             raise BadInput(f"cut: '{cut}' is none of auto, x, y, z, none")
-        if not 0 <= at <= 1:
+        if at is not None and not 0 <= at <= 1:
             raise BadInput(f"at: {at} is not from 0 to 1")
         pixels: NDArray[np.uint8] = _core.image(self._core, cut, at, width, height)
         return pixels.reshape(height, width, 3)

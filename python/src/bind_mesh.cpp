@@ -167,17 +167,21 @@ nb::tuple curves_of(nb::handle self) {
 }
 
 /// The same views as `hexwright picture`.
-PictureOptions make_view(const HexMesh& mesh, const std::string& cut, double at) {
-  if (cut != "auto" && cut != "none") return make_cut_view(cut[0] - 'x', at);
+PictureOptions make_view(const HexMesh& mesh, const std::string& cut, std::optional<double> at) {
+  if (cut != "auto" && cut != "none") {
+    const int axis = cut[0] - 'x';
+    return make_cut_view(axis, at ? *at : find_clear_cut(mesh, axis));
+  }
   PictureOptions view = make_default_view(mesh);
   if (cut == "none")
     view.cut.reset();
-  else
-    view.cut->offset = at;
+  else if (at)
+    view.cut->offset = *at;
   return view;
 }
 
-nb::object draw(const HexMesh& mesh, const std::string& cut, double at, int width, int height) {
+nb::object draw(const HexMesh& mesh, const std::string& cut, std::optional<double> at, int width,
+                int height) {
   Image image;
   {
     const nb::gil_scoped_release released;
@@ -226,9 +230,10 @@ void bind_mesh(nb::module_& module) {
       .def("curves", &curves_of);
   module.def("write_view", &write_view, "path"_a, "mesh"_a, "title"_a, "surface"_a.none(),
              "fields"_a);
-  module.def("image", &draw, "mesh"_a, "cut"_a, "at"_a, "width"_a, "height"_a,
-             nb::sig("def image(mesh: HexMesh, cut: str, at: float, width: int, height: int) -> "
-                     "numpy.typing.NDArray[numpy.uint8]"));
+  module.def(
+      "image", &draw, "mesh"_a, "cut"_a, "at"_a.none(), "width"_a, "height"_a,
+      nb::sig("def image(mesh: HexMesh, cut: str, at: float | None, width: int, height: int) -> "
+              "numpy.typing.NDArray[numpy.uint8]"));
   module.def(
       "read_mesh", [](const std::string& path) { return read_hex_mesh(path); }, "path"_a,
       nb::call_guard<nb::gil_scoped_release>());

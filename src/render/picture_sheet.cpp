@@ -25,7 +25,8 @@ std::vector<View> choose_views(const HexMesh& mesh, const std::vector<double>& v
   outside.draw_legend = false;
   std::vector<View> views = {{"outside", outside}};
   for (int axis = 0; axis < 3; ++axis) {
-    views.push_back({fmt::format("cut across {}", "xyz"[axis]), make_cut_view(axis, 0.5)});
+    views.push_back({fmt::format("cut across {}", "xyz"[axis]),
+                     make_cut_view(axis, find_clear_cut(mesh, axis))});
     views.back().options.draw_legend = false;
   }
   View worst{"", outside};

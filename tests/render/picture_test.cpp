@@ -168,6 +168,22 @@ TEST(Picture, ByPatchFacesHaveTheColoursOfTheLegend) {
   EXPECT_GT(share_of_pixels(image, [](Pixel p) { return p.r == 102 && p.g == 166; }), 1e-4);
 }
 
+TEST(Views, ACutInTheMiddleGivesWayToAFaceThatLiesAlongIt) {
+  const HexMesh box = test::box_hex_mesh(40, 4, 4);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(find_clear_cut(box, axis), 0.5);
+  // A step in the middle: the upper half of the box is gone where x > 20.
+  HexMesh step = box;
+  step.hexes.clear();
+  for (const auto& hex : box.hexes) {
+    Vec3 center;
+    for (VertId v : hex) center += box.positions[v] / 8;
+    if (center.x < 20 || center.z < 2) step.hexes.push_back(hex);
+  }
+  EXPECT_NEAR(std::abs(find_clear_cut(step, 0) - 0.5), 0.04, 1e-12);  // a hex is 0.025 thick
+  EXPECT_EQ(find_clear_cut(step, 1), 0.5);
+  EXPECT_EQ(find_clear_cut(HexMesh{}, 0), 0.5);
+}
+
 TEST(Picture, TheLegendNamesThePatchesThatAreSeen) {
   HexMesh mesh = test::box_hex_mesh(2, 2, 2);
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary)

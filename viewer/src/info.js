@@ -15,7 +15,7 @@ export function describeHex(mesh, {chosen, worst}) {
   const {hex, face} = chosen, {summary} = mesh, id = hexId(mesh, hex), code = mesh.quality[hex];
   const exact = worst >= 0 ? summary.worst[worst] : summary.worst.find(w => w.hex === id);
   const pairs = [['scaled Jacobian', exact ? exact.scaled_jacobian.toPrecision(6) : code ? `${((code - 1) / 250).toFixed(3)} to ${(code / 250).toFixed(3)}` : 'inverted']];
-  pairs.push(['layer', String(mesh.depth[hex])]);
+  pairs.push(['depth', String(mesh.depth[hex])]);
   if (summary.regions.length > 1) pairs.push(['region', summary.regions[regionOf(mesh, hex)].name]);
   summary.fields.forEach(({name, low, high, whole}, i) => {
     const value = low + mesh.fields[i][hex] / 255 * (high - low);

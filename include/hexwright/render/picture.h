@@ -48,7 +48,13 @@ struct PictureOptions {
 /// legend are the defaults.
 PictureOptions make_cut_view(int axis, double offset);
 
-/// Cut in the middle across the second longest of the box's sides.
+/// A place from 0.4 to 0.6 for make_cut_view: the nearest to the middle at which hardly any face of
+/// the mesh (3% of the box's cross-section) lies along the cut and a hex's thickness or less off
+/// it, or else where the least area of them does: next to such a face a cut leaves hexes here and
+/// there. 0.5 for a mesh without hexes.
+double find_clear_cut(const HexMesh& mesh, int axis);
+
+/// Cut near the middle, clear of faces, across the second longest of the box's sides.
 PictureOptions make_default_view(const HexMesh& mesh);
 
 /// RGB image, row by row from the top.

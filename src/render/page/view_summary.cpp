@@ -32,7 +32,7 @@ Json list_patches(const HexMesh& mesh) {
     if (!quad.patch.is_valid()) continue;
     patches.resize(std::max(patches.size(), quad.patch.index() + 1));
     ++patches[quad.patch.index()].num_quads;
-    patches[quad.patch.index()].area += quad_area(mesh.positions, quad.verts);
+    patches[quad.patch.index()].area += patch_area(mesh.positions, quad.verts);
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < patches.size(); ++i)
