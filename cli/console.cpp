@@ -22,8 +22,10 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-constexpr int kInterruptedCode = 4;                     // as for Error{Cancelled}
-constexpr suseconds_t kMicrosecondsToUnwind = 700'000;  // for steps that look at the flag seldom
+constexpr int kInterruptedCode = 4;  // as for Error{Cancelled}
+// For steps that look at the flag seldom. The rest of the second is the system's, which takes a
+// tenth of a second and more to take back each gigabyte.
+constexpr suseconds_t kMicrosecondsToUnwind = 300'000;
 
 extern "C" void end_now(int) {
   remove_part_file();

@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <span>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 namespace hexwright {
 
 /// Counting sort: counts, offsets, then placing in order of hexes, which leaves every row sorted.
 VertToHex::VertToHex(const HexMesh& mesh) : offset_(mesh.num_verts() + 1, 0) {
-  for (const auto& hex : mesh.hexes)
+  CancelCheck check_cancelled;
+  for (const auto& hex : mesh.hexes) {
+    check_cancelled();
     for (VertId v : hex) ++offset_[v.index() + 1];
+  }
   for (std::size_t v = 0; v < mesh.num_verts(); ++v) offset_[v + 1] += offset_[v];
   corners_.resize(offset_.back());
   std::vector<std::size_t> next(offset_.begin(), offset_.end() - 1);
-  for (HexId h : mesh.hexes.ids())
+  for (HexId h : mesh.hexes.ids()) {
+    check_cancelled();
     for (int lv = 0; lv < 8; ++lv)
       corners_[next[mesh.hexes[h][static_cast<std::size_t>(lv)].index()]++] = {h, lv};
+  }
 }
 
 namespace {
@@ -42,16 +48,21 @@ class FaceBuckets {
       const auto quad = face_verts(mesh, face);
       return std::min(std::min(quad[0], quad[1]), std::min(quad[2], quad[3])).index();
     };
-    for (HexId h : mesh.hexes.ids())
+    CancelCheck check_cancelled;
+    for (HexId h : mesh.hexes.ids()) {
+      check_cancelled();
       for (int lf = 0; lf < 6; ++lf) ++offset_[least({h, lf}) + 1];
+    }
     for (std::size_t v = 0; v < mesh.num_verts(); ++v) offset_[v + 1] += offset_[v];
     std::vector<std::size_t> next(offset_.begin(), offset_.end() - 1);
-    for (HexId h : mesh.hexes.ids())
+    for (HexId h : mesh.hexes.ids()) {
+      check_cancelled();
       for (int lf = 0; lf < 6; ++lf) {
         auto key = face_verts(mesh, {h, lf});
         std::sort(key.begin(), key.end());
         faces_[next[key[0].index()]++] = {{key[1], key[2], key[3]}, {h, lf}};
       }
+    }
   }
 
   std::span<KeyedFace> bucket(std::size_t v) {
@@ -99,7 +110,11 @@ HexNeighbors compute_hex_neighbors(const HexMesh& mesh) {
   result.neighbor.resize(mesh.num_hexes());
   FaceBuckets buckets(mesh);
   parallel_for(mesh.num_verts(), [&](std::size_t v) { match_pairs(buckets.bucket(v), result); });
-  for (std::size_t v = 0; v < mesh.num_verts(); ++v) collect_unmatched(buckets.bucket(v), result);
+  CancelCheck check_cancelled;
+  for (std::size_t v = 0; v < mesh.num_verts(); ++v) {
+    check_cancelled();
+    collect_unmatched(buckets.bucket(v), result);
+  }
   std::sort(result.boundary.begin(), result.boundary.end(), face_order);
   std::sort(result.non_conforming.begin(), result.non_conforming.end(), face_order);
   return result;

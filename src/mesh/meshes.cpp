@@ -1,6 +1,7 @@
 // Checks and small helpers of the three mesh types.
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/mesh/hex_mesh.h"
 #include "hexwright/mesh/tet_mesh.h"
 #include "hexwright/mesh/tri_mesh.h"
@@ -18,11 +19,14 @@ std::optional<Issue> find_bad_position(const IdVector<VertId, Vec3>& positions) 
 template <class IdType, std::size_t N>
 std::optional<Issue> find_bad_index(const IdVector<IdType, std::array<VertId, N>>& elements,
                                     std::size_t num_verts, const char* name) {
-  for (IdType e : elements.ids())
+  CancelCheck check_cancelled;
+  for (IdType e : elements.ids()) {
+    check_cancelled();
     for (VertId v : elements[e])
       if (!v.is_valid() || v.index() >= num_verts)
         return Issue{std::string(name) + " " + std::to_string(e.value()) + " uses vertex " +
                      std::to_string(v.value()) + " of " + std::to_string(num_verts)};
+  }
   return std::nullopt;
 }
 
@@ -57,8 +61,11 @@ std::optional<Issue> find_bad_label(const BoundaryLabels& labels, std::size_t nu
 template <class Elements>
 Box3 box_of_used(const IdVector<VertId, Vec3>& positions, const Elements& elements) {
   Box3 box;
-  for (const auto& element : elements)
+  CancelCheck check_cancelled;
+  for (const auto& element : elements) {
+    check_cancelled();
     for (VertId v : element) box.extend(positions[v]);
+  }
   return box;
 }
 

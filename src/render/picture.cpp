@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/io/set_table.h"
@@ -49,8 +50,11 @@ void check_options(const HexMesh& mesh, const PictureOptions& options) {
 // Vertices of the faces, each once.
 std::vector<Vec3> visible_positions(const HexMesh& mesh, const std::vector<VisibleFace>& faces) {
   IdVector<VertId, char> is_visible(mesh.num_verts(), 0);
-  for (const VisibleFace& visible : faces)
+  CancelCheck check_cancelled;
+  for (const VisibleFace& visible : faces) {
+    check_cancelled();
     for (VertId v : face_verts(mesh, visible.face)) is_visible[v] = 1;
+  }
   std::vector<Vec3> points;
   for (VertId v : mesh.positions.ids())
     if (is_visible[v]) points.push_back(mesh.positions[v]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 namespace hexwright {
@@ -47,6 +48,7 @@ struct Pieces {
 Pieces find_pieces(const HexNeighbors& adjacency, const IdVector<HexId, char>& is_kept) {
   Pieces pieces{IdVector<HexId, std::int32_t>(is_kept.size(), -1), {}};
   std::vector<HexId> reached;
+  CancelCheck check_cancelled;
   for (HexId start : is_kept.ids()) {
     if (!is_kept[start] || pieces.piece[start] >= 0) continue;
     const auto piece = static_cast<std::int32_t>(pieces.size.size());
@@ -54,6 +56,7 @@ Pieces find_pieces(const HexNeighbors& adjacency, const IdVector<HexId, char>& i
     pieces.piece[start] = piece;
     reached.assign(1, start);
     while (!reached.empty()) {
+      check_cancelled();
       const HexId h = reached.back();
       reached.pop_back();
       ++pieces.size.back();
@@ -90,7 +93,9 @@ void remove_crumbs(const HexNeighbors& adjacency, IdVector<HexId, char>& is_kept
 std::vector<VisibleFace> list_faces(const HexNeighbors& adjacency,
                                     const IdVector<HexId, char>& is_kept) {
   std::vector<VisibleFace> faces;
+  CancelCheck check_cancelled;
   for (HexId h : is_kept.ids()) {
+    check_cancelled();
     if (!is_kept[h]) continue;
     for (int lf = 0; lf < 6; ++lf) {
       const HexId other = adjacency.neighbor[h][static_cast<std::size_t>(lf)];

@@ -14,10 +14,14 @@
 #include "hexwright/grid/complete.h"
 #include "hexwright/io/grid_io.h"
 #include "hexwright/io/mesh_io.h"
+#include "hexwright/io/set_table.h"
 #include "hexwright/io/surface_io.h"
+#include "hexwright/mesh/hex_adjacency.h"
 #include "hexwright/pipeline/mesh_surface.h"
 #include "hexwright/quality/judge.h"
 #include "hexwright/relax/improve.h"
+#include "hexwright/render/picture.h"
+#include "hexwright/render/view_page.h"
 
 #include "helpers.h"
 #include "io/sample_meshes.h"
@@ -99,7 +103,24 @@ TEST(Cancelling, EndsChecksAndQueries) {
       {"topology", [&] { check_topology(hexes); }},
       {"quality", [&] { summarize_quality(hexes); }},
       {"distance", [&] { measure_distance(hexes, tree, {}); }},
+      {"hexes around vertices", [&] { VertToHex around(hexes); }},
+      {"neighbours", [&] { compute_hex_neighbors(hexes); }},
+      {"indices", [&] { hexes.find_problem(); }},
+      {"box", [&] { bounding_box(hexes); }},
+      {"sets", [&] { make_set_table(hexes); }},
+      {"page", [&] { make_view_page(hexes, {}); }},
+      {"picture", [&] { render_hex_mesh(hexes, {}); }},
   });
+}
+
+TEST(Cancelling, EndsWritersOfEveryFormatAndLeavesNothing) {
+  const test::TempFolder folder;
+  const HexMesh hexes = test::box_hex_mesh(3, 3, 3);  // so small that only the file looks
+  std::map<std::string, std::function<void()>> works;
+  for (const std::string& extension : hex_mesh_extensions())
+    works[extension] = [&, name = "a" + extension] { write_hex_mesh(folder / name, hexes); };
+  expect_cancelled_within_scope(works);
+  EXPECT_EQ(folder.num_files(), 0u);
 }
 
 TEST(Cancelling, EndsReadersOfEveryFormat) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 #include "dual/complex/positions.h"
@@ -23,10 +24,13 @@ struct CornerRows {
       for (VertId v : hex) ++offset[v.index() + 1];
     for (std::size_t v = 1; v < offset.size(); ++v) offset[v] += offset[v - 1];
     auto next = offset;
-    for (HexId h : complex.verts.ids())
+    CancelCheck check_cancelled;
+    for (HexId h : complex.verts.ids()) {
+      check_cancelled();
       for (std::uint32_t lv = 0; lv < 8; ++lv)
         corners[next[complex.verts[h][lv].index()]++] =
             8 * static_cast<std::uint32_t>(h.value()) + lv;
+    }
   }
 };
 

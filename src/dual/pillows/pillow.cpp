@@ -5,6 +5,7 @@
 #include "dual/pillows/pillow.h"
 
 #include "hexwright/base/assert.h"
+#include "hexwright/base/cancel.h"
 
 namespace hexwright::dual {
 
@@ -41,7 +42,9 @@ HexId PillowInserter::insert(std::span<const HexId> inside) {
 
 void PillowInserter::collect_interface(std::span<const HexId> inside) {
   interface_.clear();
-  for (HexId h : inside)
+  CancelCheck check_cancelled;
+  for (HexId h : inside) {
+    check_cancelled();
     for (int lf = 0; lf < 6; ++lf) {
       const FaceLink link = complex_.links[h][lf];
       if (link.is_plane() || is_inside(link.hex())) continue;
@@ -52,12 +55,15 @@ void PillowInserter::collect_interface(std::span<const HexId> inside) {
             complex_.verts[face.outer], face.outer_lf, complex_.verts[h][kHexFaces[lf][k]]));
       interface_.push_back(face);
     }
+  }
 }
 
 // Old vertex ids must stay readable until every star is split, hence the list of changes.
 void PillowInserter::split_verts() {
   changes_.clear();
-  for (const InterfaceFace& face : interface_)
+  CancelCheck check_cancelled;
+  for (const InterfaceFace& face : interface_) {
+    check_cancelled();
     for (int lv : kHexFaces[face.inner_lf]) {
       const VertId v = complex_.verts[face.inner][lv];
       if (is_vert_done_[v.index()]) continue;
@@ -65,6 +71,7 @@ void PillowInserter::split_verts() {
       done_verts_.push_back(v);
       split_vert(v, face.inner);
     }
+  }
   for (const CornerChange& c : changes_) complex_.verts[c.hex][c.lv] = c.vert;
 }
 
@@ -129,7 +136,9 @@ void PillowInserter::join_outer_across_edges() {
 }
 
 void PillowInserter::link_layer() {
+  CancelCheck check_cancelled;
   for (const InterfaceFace& face : interface_) {
+    check_cancelled();
     const HexId h = complex_.add_hex();
     for (int k = 0; k < 4; ++k) {
       complex_.verts[h][k] = complex_.verts[face.inner][kHexFaces[face.inner_lf][k]];
@@ -140,6 +149,7 @@ void PillowInserter::link_layer() {
   }
   HexId h = first_layer_hex_;
   for (const InterfaceFace& face : interface_) {
+    check_cancelled();
     for (int k = 0; k < 4; ++k) link_side(h, face, k);
     ++h;
   }

@@ -45,13 +45,16 @@ std::int32_t PillowStack::group_around(const LatticeCoord& p) const {
 }
 
 void PillowStack::wrap_axis(int axis) {
+  check_cancelled();
   core_.clear();
   for (const ActiveHex& h : active_)
     if (is_on_core_plane(h, axis)) core_.push_back(h.hex);
   if (core_.empty()) return;
 
   const HexId first = inserter_.insert(core_);
+  CancelCheck check_cancelled;
   for (HexId h = first; h.index() < complex_.num_hexes(); ++h) {
+    check_cancelled();
     const HexId inner = complex_.links[h][4].hex(), outer = complex_.links[h][5].hex();
     complex_.places[h] = place_layer_hex(inner, outer, axis);
     if (!complex_.places[h].is_lattice()) continue;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
 #include "mesh/quad.h"
@@ -38,7 +39,11 @@ template <class NumberOf>
 std::vector<NamedSet> group(const HexMesh& mesh, SetKind kind, std::size_t count,
                             NumberOf number_of) {
   std::map<std::int32_t, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < count; ++i) groups[number_of(i)].push_back(i);
+  CancelCheck check_cancelled;
+  for (std::size_t i = 0; i < count; ++i) {
+    check_cancelled();
+    groups[number_of(i)].push_back(i);
+  }
   std::vector<NamedSet> sets;
   for (auto& [number, members] : groups) {
     const bool is_given = find_name(names_of(mesh, kind), number) != nullptr;
@@ -77,6 +82,20 @@ void append_verts(const Elements& elements, const std::vector<std::size_t>& memb
                   std::vector<VertId>& verts) {
   for (std::size_t i : members)
     verts.insert(verts.end(), elements[i].verts.begin(), elements[i].verts.end());
+}
+
+/// By marks: a region's vertices are most of the mesh, each named by eight hexes.
+std::vector<VertId> verts_of_hexes(const HexMesh& mesh, const std::vector<std::size_t>& hexes) {
+  IdVector<VertId, char> is_used(mesh.num_verts(), 0);
+  CancelCheck check_cancelled;
+  for (std::size_t h : hexes) {
+    check_cancelled();
+    for (VertId v : mesh.hexes[HexId(h)]) is_used[v] = 1;
+  }
+  std::vector<VertId> verts;
+  for (VertId v : is_used.ids())
+    if (is_used[v]) verts.push_back(v);
+  return verts;
 }
 
 }  // namespace
@@ -126,11 +145,9 @@ bool is_in_group(const NamedSet& patch, const NamedSet& group) {
 }
 
 std::vector<VertId> set_nodes(const HexMesh& mesh, const NamedSet& set) {
+  if (set.kind == SetKind::Region) return verts_of_hexes(mesh, set.members);
   std::vector<VertId> verts;
-  if (set.kind == SetKind::Region)
-    for (std::size_t h : set.members)
-      verts.insert(verts.end(), mesh.hexes[HexId(h)].begin(), mesh.hexes[HexId(h)].end());
-  else if (set.kind == SetKind::Curve)
+  if (set.kind == SetKind::Curve)
     append_verts(mesh.labels.edges, set.members, verts);
   else if (set.kind == SetKind::Corners)
     for (std::size_t c : set.members) verts.push_back(mesh.labels.corners[c]);

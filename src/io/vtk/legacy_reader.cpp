@@ -8,6 +8,8 @@
 #include <array>
 #include <limits>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/text/byte_reader.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
@@ -238,8 +240,11 @@ class VtkLegacyReader {
       if (!equals_ignoring_case(type.name, type_name)) continue;
       const std::string_view bytes = take_bytes(product(count, type.size));
       result.reserve(count);
-      for (std::size_t i = 0; i < count; ++i)
+      CancelCheck check_cancelled;
+      for (std::size_t i = 0; i < count; ++i) {
+        check_cancelled();
         result.push_back(type.read(bytes.data() + i * type.size));
+      }
       return result;
     }
     scanner_.fail("unknown number type " + in_quotes(type_name) + "; export the file again");
@@ -260,7 +265,9 @@ class VtkLegacyReader {
       return result;
     }
     constexpr double kLargestExact = 9007199254740992.0;
+    CancelCheck check_cancelled;
     for (double value : values(type_name, count)) {
+      check_cancelled();
       if (!(value >= -kLargestExact && value <= kLargestExact))
         scanner_.fail("an index is out of range; the file is damaged, export it again");
       result.push_back(static_cast<std::int64_t>(value));

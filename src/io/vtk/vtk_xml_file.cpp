@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
 
@@ -141,8 +143,11 @@ std::vector<double> VtkXmlFile::values(const pugi::xml_node& array) const {
                   where);
     std::vector<double> values;
     values.reserve(bytes.size() / type.size);
-    for (std::size_t at = 0; at < bytes.size(); at += type.size)
+    CancelCheck check_cancelled;
+    for (std::size_t at = 0; at < bytes.size(); at += type.size) {
+      check_cancelled();
       values.push_back(type.read(bytes.data() + at, format_.order));
+    }
     return values;
   }
   throw Error(ErrorCode::BadFile,

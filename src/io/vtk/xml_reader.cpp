@@ -2,6 +2,8 @@
 // appended raw or base64; zlib or not; 32- or 64-bit headers; either byte order; several pieces.
 #include <cstring>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/text/file_bytes.h"
 #include "io/vtk/vtk_grid.h"
 #include "io/vtk/vtk_xml_file.h"
@@ -33,7 +35,9 @@ class VtkXmlReader {
       throw bad_element(file_.name(), "Points",
                         "the number of coordinates is no multiple of 3; export the file again");
     const auto first_vert = static_cast<std::int64_t>(grid_.positions.size());
+    CancelCheck check_cancelled;
     for (std::size_t i = 0; i < points.size(); i += 3) {
+      check_cancelled();
       const Vec3 p = {points[i], points[i + 1], points[i + 2]};
       if (!is_finite(p))
         throw bad_element(file_.name(), "point " + std::to_string(i / 3),
@@ -66,15 +70,24 @@ class VtkXmlReader {
 
   void read_cells(const pugi::xml_node& cells, std::int64_t first_vert) {
     read_connectivity(cells, first_vert);
-    for (double type : named(cells, "types"))
+    CancelCheck check_cancelled;
+    for (double type : named(cells, "types")) {
+      check_cancelled();
       grid_.types.push_back(static_cast<std::int32_t>(to_index(type)));
+    }
   }
 
   void read_connectivity(const pugi::xml_node& cells, std::int64_t first_vert) {
     const auto first_entry = static_cast<std::int64_t>(grid_.connectivity.size());
-    for (double v : named(cells, "connectivity"))
+    CancelCheck check_cancelled;
+    for (double v : named(cells, "connectivity")) {
+      check_cancelled();
       grid_.connectivity.push_back(to_index(v) + first_vert);
-    for (double end : named(cells, "offsets")) grid_.ends.push_back(to_index(end) + first_entry);
+    }
+    for (double end : named(cells, "offsets")) {
+      check_cancelled();
+      grid_.ends.push_back(to_index(end) + first_entry);
+    }
   }
 
   /// Also refuses NaN, for which neither comparison holds.

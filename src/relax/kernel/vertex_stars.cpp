@@ -1,4 +1,5 @@
 // Stars and colours of the vertices of a hex mesh, for sweeps of VertexNewton.
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/parallel.h"
 
 #include "relax/kernel/vertex_newton.h"
@@ -48,7 +49,9 @@ VertexColors::VertexColors(const HexMesh& mesh, const VertToHex& vert_to_hex) {
   std::vector<int> color(mesh.num_verts(), -1);
   std::vector<std::size_t> last_user;  // per colour: the vertex whose neighbour has it, plus 1
   std::vector<std::size_t> count;
+  CancelCheck check_cancelled;
   for (std::size_t v = 0; v < mesh.num_verts(); ++v) {
+    check_cancelled();
     if (vert_to_hex[VertId(v)].empty()) continue;
     for (const HexCorner& corner : vert_to_hex[VertId(v)])
       for (VertId u : mesh.hexes[corner.hex])

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/io/base64.h"
 
@@ -34,6 +35,7 @@ std::vector<std::uint32_t> to_deltas(std::span<const std::uint32_t> values, int 
 }
 
 std::string to_packed_text(const std::string& bytes) {
+  check_cancelled();
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
   // Level 6: level 9 takes three times as long on connectivity and saves one percent.

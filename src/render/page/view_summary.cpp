@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/io/set_table.h"
 #include "hexwright/quality/verdict_json.h"
 #include "hexwright/version.h"
@@ -66,7 +67,9 @@ Json list_curves(const HexMesh& mesh) {
 Json list_regions(const HexMesh& mesh, const std::vector<std::int32_t>& tags) {
   std::vector<std::size_t> counts(tags.size(), 0);
   std::vector<double> volumes(tags.size(), 0);
+  CancelCheck check_cancelled;
   for (HexId h : mesh.hexes.ids()) {
+    check_cancelled();
     const std::int32_t tag = mesh.region.empty() ? 0 : mesh.region[h];
     const auto i =
         static_cast<std::size_t>(std::lower_bound(tags.begin(), tags.end(), tag) - tags.begin());
