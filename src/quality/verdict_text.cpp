@@ -75,9 +75,14 @@ std::string volume_line(const Verdict& v) {
   return line("volume", text);
 }
 
+std::string bound_of(const DistanceUpperBound& upper) {
+  const double percent = 100 * upper.two_way();
+  return upper.has_excuses ? fmt::format(" (at most {:.4f} %, as far as samples tell)", percent)
+                           : fmt::format(" (proven: at most {:.4f} %)", percent);
+}
+
 std::string distance_lines(const SurfaceDistance& d) {
-  const std::string bound =
-      d.upper ? fmt::format(" (proven: at most {:.4f} %)", 100 * d.upper->two_way()) : "";
+  const std::string bound = d.upper ? bound_of(*d.upper) : "";
   return line("distance", fmt::format("largest {:.4f} %{}, mean {:.4f} % of the diagonal",
                                       100 * d.max_two_way(), bound, 100 * d.mean_two_way())) +
          line("", fmt::format("surface to mesh {:.4f} % ({:.4f} %), mesh to surface {:.4f} % "

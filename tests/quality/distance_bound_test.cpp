@@ -3,8 +3,10 @@
 #include "hexwright/base/parallel.h"
 #include "hexwright/mesh/mid_nodes.h"
 #include "hexwright/quality/surface_distance.h"
+#include "hexwright/quality/verdict_json.h"
 
 #include "helpers.h"
+#include "quality/distance/convex_piece.h"
 #include "quality/distance/patch_facets.h"
 #include "quality/distance/triangle_samples.h"
 #include "solids.h"
@@ -127,6 +129,52 @@ TEST(DistanceBound, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(d[0].max_two_way(), d[1].max_two_way());
   EXPECT_EQ(d[0].upper->to_mesh, d[1].upper->to_mesh);
   EXPECT_EQ(d[0].upper->to_surface, d[1].upper->to_surface);
+}
+
+// A sheet bounds no solid: none of its points counts, wherever the mesh is.
+TEST(DistanceBound, IsOfNoDistanceWhereEverySampleIsExcused) {
+  TriMesh sheet;
+  for (const Vec3& p : {Vec3{4, 0, 0}, Vec3{5, 0, 0}, Vec3{4, 1, 0}}) sheet.positions.push_back(p);
+  sheet.tris.push_back({VertId(0), VertId(1), VertId(2)});
+  const SurfaceTree surface(sheet);
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  for (Vec3& p : mesh.positions) p += {1, 2, 3};
+  const auto sampled = measure_distance(mesh, surface, {});
+  ASSERT_DOUBLE_EQ(sampled.ignored_share, 1);
+  ASSERT_EQ(sampled.max_to_mesh, 0);
+  const auto d = measure_distance(mesh, surface, {.bound_gap = 1e-3});
+  ASSERT_TRUE(d.upper.has_value());
+  EXPECT_EQ(d.max_to_mesh, 0);
+  EXPECT_TRUE(d.upper->has_excuses);
+  Verdict verdict;
+  verdict.distance = d;
+  const std::string text = figures_to_text(verdict);
+  EXPECT_NE(text.find("as far as samples tell"), std::string::npos) << text;
+  EXPECT_EQ(text.find("proven: at most"), std::string::npos) << text;
+}
+
+TEST(DistanceBound, IsAbsentForFacesWithNodesOfTheirOwn) {
+  const SurfaceTree surface(test::unit_cube_surface());
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  mesh.mid_nodes = make_straight_mid_nodes(mesh);
+  EXPECT_TRUE(measure_distance(mesh, surface, {.bound_gap = 1e-3}).upper.has_value());
+  mesh.mid_nodes->inner.resize(1);
+  EXPECT_FALSE(measure_distance(mesh, surface, {.bound_gap = 1e-3}).upper.has_value());
+}
+
+TEST(ConvexPiece, PartsHaveRoomForWhateverSignsRoundingGives) {
+  ConvexPiece piece({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}});
+  while (!piece.is_full()) {
+    const std::size_t size = piece.verts().size();
+    std::vector<double> alternate;
+    for (std::size_t i = 0; i < size; ++i) alternate.push_back(i % 2 == 0 ? 1 : -1);
+    for (const ConvexPiece& part : piece.split(alternate))
+      EXPECT_LE(part.verts().size(), ConvexPiece::kMaxVerts);
+    std::vector<double> without_first(size, 1);
+    without_first[0] = -1;
+    piece = piece.split(without_first)[0];
+    ASSERT_EQ(piece.verts().size(), size + 1);
+  }
 }
 
 TEST(PatchFacets, ErrorsBoundTheDistanceFromThePatch) {

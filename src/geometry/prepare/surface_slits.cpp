@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/geometry/surface_topology.h"
 
 #include "geometry/prepare/surface_clean.h"
+#include "geometry/tree/point_tree.h"
 #include "geometry/tree/triangle_contacts.h"
 #include "geometry/tree/triangle_math.h"
 
@@ -77,19 +79,27 @@ std::vector<char> find_walls(const TriMesh& mesh) {
   return is_wall;
 }
 
-/// Vertices of open edges, other than its ends, that lie on a side, from its beginning to its end.
-std::vector<VertId> find_verts_on(const TriMesh& mesh, const std::vector<VertId>& open,
-                                  const Vec3& a, const Vec3& b) {
+/// Vertices of open edges.
+struct OpenVerts {
+  std::vector<VertId> verts;
+  PointTree tree;  ///< of their positions
+};
+
+/// Those that lie on a side, other than its ends, from its beginning to its end.
+std::vector<VertId> find_verts_on(const TriMesh& mesh, const OpenVerts& open, const Vec3& a,
+                                  const Vec3& b) {
   const Vec3 along = b - a;
   const double length = norm(along);
   std::vector<std::pair<double, VertId>> found;
-  for (const VertId v : open) {
+  const Vec3 room = {kContact, kContact, kContact};
+  open.tree.visit_box({min(a, b) - room, max(a, b) + room}, [&](std::size_t i) {
+    const VertId v = open.verts[i];
     const Vec3 p = mesh.positions[v] - a;
     const double at = dot(p, along) / length;
     if (at > 2 * kContact && at < length - 2 * kContact &&
         norm(p - along * (at / length)) <= kContact)
       found.emplace_back(at, v);
-  }
+  });
   std::sort(found.begin(), found.end());
   std::vector<VertId> verts;
   for (const auto& [at, v] : found)
@@ -98,24 +108,27 @@ std::vector<VertId> find_verts_on(const TriMesh& mesh, const std::vector<VertId>
   return verts;
 }
 
-std::vector<VertId> find_open_verts(const TriMesh& mesh, const SurfaceEdges& edges) {
+OpenVerts find_open_verts(const TriMesh& mesh, const SurfaceEdges& edges) {
   std::vector<VertId> open;
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (edges.sides_of(e).size() == 1) open.insert(open.end(), {edges.lo(e), edges.hi(e)});
   std::sort(open.begin(), open.end());
   open.erase(std::unique(open.begin(), open.end()), open.end());
-  std::erase_if(open, [&](VertId v) { return v.index() >= mesh.num_verts(); });
-  return open;
+  std::vector<Vec3> positions;
+  for (const VertId v : open) positions.push_back(mesh.positions[v]);
+  return {std::move(open), PointTree(std::move(positions))};
 }
 
-/// Gives open sides the vertices of other open edges that lie on them, as copies: one side at a
-/// time of each triangle. Returns whether there were any.
+/// Gives open sides the vertices of other open edges that lie on them: one side at a time of each
+/// triangle. Returns whether there were any.
 bool split_open_sides(WorkingSurface& surface) {
   TriMesh& mesh = surface.mesh;
   const SurfaceEdges edges = compute_surface_edges(mesh);
-  const std::vector<VertId> open = find_open_verts(mesh, edges);
+  const OpenVerts open = find_open_verts(mesh, edges);
+  CancelCheck check;
   std::vector<char> is_done(mesh.num_tris(), 0);
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    check();
     if (edges.sides_of(e).size() != 1) continue;
     const auto side = edges.sides_of(e)[0];
     if (is_done[side.tri.index()]) continue;
@@ -136,12 +149,8 @@ bool split_open_sides(WorkingSurface& surface) {
   return std::ranges::find(is_done, 1) != is_done.end();
 }
 
-std::size_t count_open(const TriMesh& mesh) {
-  const SurfaceEdges edges = compute_surface_edges(mesh);
-  std::size_t count = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) count += edges.sides_of(e).size() == 1;
-  return count;
-}
+/// Edges that keep it from enclosing a volume.
+std::size_t count_odd(const TriMesh& mesh) { return count_odd_edges(compute_surface_edges(mesh)); }
 
 }  // namespace
 
@@ -158,7 +167,7 @@ bool close_slits(WorkingSurface& surface, Parts parts) {
   for (int k = 0; k < kSidesOfATriangle && split_open_sides(closed); ++k) {
   }
   weld_open_edges(closed.mesh);
-  if (count_open(closed.mesh) > count_open(surface.mesh)) return false;
+  if (count_odd(closed.mesh) > count_odd(surface.mesh)) return false;
   surface = std::move(closed);
   return true;
 }

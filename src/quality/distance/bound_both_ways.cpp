@@ -54,8 +54,10 @@ class Bounder {
   const SurfaceTree& all_tree() const { return all_tree_ ? *all_tree_ : input_.boundary; }
 
   void start_to_mesh(bool is_sampled) {
-    found_.to_mesh.lower = nearest_patch(to_mesh_.worst).lower;
-    found_.to_mesh.worst = to_mesh_.worst;
+    if (to_mesh_.max > 0) {  // else no sample counts, or none is off
+      found_.to_mesh.lower = nearest_patch(to_mesh_.worst).lower;
+      found_.to_mesh.worst = to_mesh_.worst;
+    }
     std::vector<double> upper;
     if (is_sampled) upper = to_mesh_.vert_distance;
     for (std::size_t v = 0; v < upper.size(); ++v) {
@@ -119,6 +121,7 @@ class Bounder {
   /// worst place than they had it, once more from the beginning.
   void settle_to_mesh() {
     DistanceBounds& found = found_.to_mesh;
+    if (found.lower == 0) return;  // at no place that is known
     const auto nearest = nearest_patch(found.worst);
     found.lower = nearest.lower;
     if (std::max(found.upper, found.open_upper) <= found.lower + input_.gap) return;

@@ -4,13 +4,16 @@
 #include <array>
 #include <span>
 
+#include "hexwright/base/assert.h"
 #include "hexwright/base/vec3.h"
 
 namespace hexwright {
 
 class ConvexPiece {
  public:
-  static constexpr std::size_t kMaxVerts = 12;
+  /// A part has two vertices for each time that its border leaves it: half as many again at most,
+  /// whatever signs rounding gives to vertices that are nearly in a row.
+  static constexpr std::size_t kMostCut = 11, kMaxVerts = kMostCut + kMostCut / 2;
 
   ConvexPiece() = default;
   explicit ConvexPiece(const std::array<Vec3, 3>& tri) {
@@ -19,7 +22,7 @@ class ConvexPiece {
 
   std::span<const Vec3> verts() const { return {verts_.data(), size_}; }
   bool is_empty() const { return size_ == 0; }
-  bool is_full() const { return size_ + 1 > kMaxVerts; }
+  bool is_full() const { return size_ > kMostCut; }
 
   Vec3 center() const {
     Vec3 sum;
@@ -45,7 +48,10 @@ class ConvexPiece {
   }
 
  private:
-  void add(const Vec3& p) { verts_[size_++] = p; }
+  void add(const Vec3& p) {
+    HEXWRIGHT_ASSERT(size_ < kMaxVerts);
+    verts_[size_++] = p;
+  }
 
   std::array<Vec3, kMaxVerts> verts_;
   std::size_t size_ = 0;

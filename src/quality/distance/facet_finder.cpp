@@ -1,34 +1,22 @@
 #include "quality/distance/facet_finder.h"
 
-#include <cmath>
-
 namespace hexwright {
-
-ClosestPoint FacetFinder::closest(const FacetSet& set, const Vec3& p, Last& last) {
-  constexpr double kSlack = 1 + 1e-9;  // covers rounding
-  ClosestFilter filter;
-  filter.hint = last.tri;
-  if (last.tri.is_valid())
-    filter.max_distance = (last.distance + hexwright::distance(p, last.point)) * kSlack;
-  auto hit = set.tree->closest(p, filter);
-  if (!hit) hit = set.tree->closest(p);
-  last = {hit->tri, p, std::sqrt(hit->distance_sq)};
-  return *hit;
-}
 
 /// Coarse facets of a patch that has finer ones say nothing.
 NearFacet FacetFinder::find(const Vec3& p) {
-  const ClosestPoint of_all = closest(sets_.all, p, all_);
+  all_.find(p);
+  const TriId of_all = all_.nearest();
   NearFacet near = {
-      {of_all.tri, false}, all_.distance, sets_.all.error(of_all.tri), sets_.all.patch(of_all.tri)};
+      {of_all, false}, all_.last_distance(), sets_.all.error(of_all), sets_.all.patch(of_all)};
   if (!sets_.finer.tree) return near;
-  const ClosestPoint of_finer = closest(sets_.finer, p, finer_);
+  finer_.find(p);
   const bool is_replaced = sets_.has_finer[static_cast<std::size_t>(near.patch)];
-  if (!is_replaced && near.distance <= finer_.distance) return near;
-  return {{of_finer.tri, true},
-          finer_.distance,
-          sets_.finer.error(of_finer.tri),
-          sets_.finer.patch(of_finer.tri)};
+  if (!is_replaced && near.distance <= finer_.last_distance()) return near;
+  const TriId of_finer = finer_.nearest();
+  return {{of_finer, true},
+          finer_.last_distance(),
+          sets_.finer.error(of_finer),
+          sets_.finer.patch(of_finer)};
 }
 
 TriangleData FacetFinder::data(const FacetRef& ref) const {

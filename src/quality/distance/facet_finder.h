@@ -7,6 +7,7 @@
 #include "hexwright/geometry/surface_tree.h"
 
 #include "geometry/tree/triangle_math.h"
+#include "quality/distance/nearby_queries.h"
 
 namespace hexwright {
 
@@ -42,7 +43,8 @@ struct NearFacet {
 /// Queries that come in an order where neighbours are near, which bounds each search.
 class FacetFinder {
  public:
-  explicit FacetFinder(const FacetSets& sets) : sets_(sets) {}
+  explicit FacetFinder(const FacetSets& sets)
+      : sets_(sets), all_(sets.all.tree), finer_(sets.finer.tree) {}
 
   /// The reference must not be empty.
   NearFacet find(const Vec3& p);
@@ -50,18 +52,10 @@ class FacetFinder {
   double error(const FacetRef& ref) const { return set(ref).error(ref.tri); }
 
  private:
-  /// What is known of a set's last query.
-  struct Last {
-    TriId tri;
-    Vec3 point;
-    double distance = 0;
-  };
-
   const FacetSet& set(const FacetRef& ref) const { return ref.is_finer ? sets_.finer : sets_.all; }
-  static ClosestPoint closest(const FacetSet& set, const Vec3& p, Last& last);
 
   const FacetSets& sets_;
-  Last all_, finer_;
+  NearbyQueries all_, finer_;
 };
 
 }  // namespace hexwright

@@ -11,7 +11,7 @@
 
 namespace hexwright {
 
-/// Patches of quads: bilinear, or biquadratic with the mid-nodes of second order.
+/// Patches of quads: bilinear, or of second order by the mid-nodes of their sides (serendipity).
 class QuadPatches {
  public:
   /// Of `quads`, counter-clockwise seen from outside. The mesh must outlive the patches.

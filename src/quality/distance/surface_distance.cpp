@@ -18,15 +18,13 @@
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "quality/distance/bound_both_ways.h"
+#include "quality/distance/nearby_queries.h"
 #include "quality/distance/triangle_samples.h"
 
 namespace hexwright {
 namespace {
 
 constexpr std::size_t kGrain = 1024;
-// A sample's distance is at most its neighbour's plus the step between them; the slack covers
-// rounding.
-constexpr double kSlack = 1 + 1e-9;
 
 /// Samples nearer than this share of the diagonal are not worth a test for the means.
 constexpr double kTrustedDistance = 0.001;
@@ -86,11 +84,13 @@ Partial combine(Partial a, const Partial& b) {
 // Measures samples that come in an order where neighbours are near, which bounds each search.
 class SampleMeter {
  public:
-  explicit SampleMeter(const Reference& reference) : reference_(reference) {}
+  explicit SampleMeter(const Reference& reference)
+      : reference_(reference), queries_(&reference.tree) {}
 
   /// Returns the distance, whether it counts or not.
   double add(const Vec3& p, double weight) {
-    const double d = distance_to_reference(p);
+    const auto hit = queries_.find(p);
+    const double d = hit ? queries_.last_distance() : std::numeric_limits<double>::infinity();
     if (!counts(p, d)) {
       partial_.excused_weight += weight;
       return d;
@@ -105,7 +105,7 @@ class SampleMeter {
     return d;
   }
   const Partial& partial() const { return partial_; }
-  TriId nearest() const { return nearest_; }  ///< to the last sample
+  TriId nearest() const { return queries_.nearest(); }  ///< to the last sample
 
  private:
   /// Whether a sample counts. What would be the largest so far, or a place to refine, is tested
@@ -121,25 +121,9 @@ class SampleMeter {
     return last_counts_ = !reference_.is_excused(p, d);
   }
 
-  double distance_to_reference(const Vec3& p) {
-    ClosestFilter filter;
-    filter.hint = nearest_;
-    if (has_previous_) filter.max_distance = (previous_distance_ + distance(p, previous_)) * kSlack;
-    auto hit = reference_.tree.closest(p, filter);
-    if (!hit && has_previous_) hit = reference_.tree.closest(p);
-    if (!hit) return std::numeric_limits<double>::infinity();
-    has_previous_ = true;
-    previous_ = p;
-    nearest_ = hit->tri;
-    return previous_distance_ = std::sqrt(hit->distance_sq);
-  }
-
   const Reference& reference_;
+  NearbyQueries queries_;
   Partial partial_;
-  bool has_previous_ = false;
-  TriId nearest_;
-  Vec3 previous_;
-  double previous_distance_ = 0;
   std::optional<Vec3> last_tested_;
   bool last_counts_ = true;
 };
@@ -178,12 +162,13 @@ Partial measure(const TriMesh& sampled, const Reference& reference, double spaci
 double max_of(const Partial& p) { return p.weight > 0 || p.excused_weight == 0 ? p.max : 0; }
 double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weight : max_of(p); }
 
-void take_bounds(const BoundsBothWays& bounds, double diagonal, SurfaceDistance& result) {
+void take_bounds(const BoundsBothWays& bounds, double diagonal, bool has_excuses,
+                 SurfaceDistance& result) {
   result.max_to_mesh = bounds.to_mesh.lower / diagonal;
   result.max_to_surface = bounds.to_surface.lower / diagonal;
   result.worst_on_surface = bounds.to_mesh.worst;
   result.worst_on_mesh = bounds.to_surface.worst;
-  result.upper = {bounds.to_mesh.upper / diagonal, bounds.to_surface.upper / diagonal};
+  result.upper = {bounds.to_mesh.upper / diagonal, bounds.to_surface.upper / diagonal, has_excuses};
 }
 
 }  // namespace
@@ -231,7 +216,9 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   };
   SampledDirection on_surface{.counts = counts_on_surface, .has_excuses = options.solid_only};
   SampledDirection on_mesh{.counts = counts_on_mesh, .has_excuses = has_holes};
-  const bool is_bounded = options.bound_gap > 0;
+  // Patches have their middle from their sides.
+  const bool has_face_nodes = mesh.mid_nodes && !mesh.mid_nodes->inner.empty();
+  const bool is_bounded = options.bound_gap > 0 && !has_face_nodes;
   Partial to_mesh =
       measure(surface.surface(),
               {boundary, hot, is_off_solid, options.solid_only, trusted, rounding, radius}, spacing,
@@ -259,7 +246,7 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   take_bounds(
       bound_both_ways({mesh, quads, surface, boundary, options.bound_gap * diagonal, 0.5 * spacing},
                       on_surface, on_mesh),
-      diagonal, result);
+      diagonal, on_surface.has_excuses || on_mesh.has_excuses, result);
   return result;
 }
 
