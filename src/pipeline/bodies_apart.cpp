@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "hexwright/geometry/surface_names.h"
 
 #include "geometry/topology/bodies.h"
@@ -206,6 +208,7 @@ void append_records(MeshResult& all, MeshResult&& part) {
   add(all.stages, part.stages);
   all.rounds.insert(all.rounds.end(), part.rounds.begin(), part.rounds.end());
   all.num_rounds += part.num_rounds;
+  all.is_limited = all.is_limited || part.is_limited;
   all.failures.insert(all.failures.end(), part.failures.begin(), part.failures.end());
 }
 
@@ -297,6 +300,12 @@ std::vector<TriMesh> split_near_bodies(const Target& target, double gap) {
     append(parts[body_to_part[b]], bodies[b], surface);
   for (TriMesh& part : parts) part = to_world(std::move(part), target.frame);
   return parts;
+}
+
+std::string say_groups(std::size_t num_parts) {
+  return fmt::format(
+      "bodies that touch or nearly touch are meshed each by itself, in {} groups (--gap)",
+      num_parts);
 }
 
 double plan_gap(const MeshOptions& options, const Target& target) {

@@ -2,6 +2,7 @@
 // each has vertices of its own, and the gap between them stays as it is.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hexwright/pipeline/mesh_surface.h"
@@ -12,6 +13,9 @@ namespace hexwright {
 /// are in different parts, all others together. None when all can be meshed together, or when some
 /// triangles belong to no body.
 std::vector<TriMesh> split_near_bodies(const Target& target, double gap);
+
+/// That they are meshed so.
+std::string say_groups(std::size_t num_parts);
 
 /// How near bodies must be to each other to be meshed apart, in the target's coordinates; negative
 /// where they never are: with the background meshed as well, with wall layers or sizes asked for by

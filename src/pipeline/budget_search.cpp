@@ -13,7 +13,7 @@
 #include "hexwright/base/error.h"
 
 #include "base/words.h"
-#include "pipeline/loop/round.h"
+#include "pipeline/loop/demands.h"
 
 namespace hexwright {
 namespace {
@@ -46,14 +46,13 @@ auto rank(const MeshResult& result, double tolerance) {
                          std::max(distance_of(result), tolerance));
 }
 
-/// Absent when it has, or would have, more hexes than allowed.
+/// Absent when it would have more hexes than allowed.
 std::optional<MeshResult> try_rung(const MeshOptions& options, Run run, const Context& context) {
   std::vector<std::string> warnings;
   Context quiet = context;
   quiet.on_warning = [&warnings](std::string_view message) { warnings.emplace_back(message); };
   try {
     MeshResult result = run(options, quiet);
-    if (result.mesh.num_hexes() > options.most_hexes) return {};
     result.warnings = std::move(warnings);
     return result;
   } catch (const Error& error) {
@@ -66,16 +65,18 @@ bool is_near_enough(const MeshResult& result, double tolerance) {
   return result.failures.empty() && distance_of(result) <= tolerance;
 }
 
-/// The gate is that of the tolerance asked for.
+/// The gate is that of the tolerance asked for, not of the one that led to the mesh.
 void judge_as_asked(const MeshOptions& options, MeshResult& result) {
-  const double gate = kGateFactor * options.sizing.tolerance, distance = distance_of(result);
-  const bool is_said = distance > kGateFactor * result.tolerance;
+  const double distance = distance_of(result);
+  std::erase(result.failures, say_beyond_gate(distance, result.tolerance));
   result.tolerance = options.sizing.tolerance;
-  if (options.sizing.sizing != Sizing::Deviation || distance <= gate || is_said) return;
-  result.failures.push_back(
-      fmt::format("the mesh departs from the surface by up to {:.3g}% of the diagonal, more than "
-                  "the gate's {:.3g}%",
-                  100 * distance, 100 * gate));
+  if (is_gated(options, distance))
+    result.failures.push_back(say_beyond_gate(distance, result.tolerance));
+}
+
+MeshResult say_warnings(MeshResult&& result, const Context& context) {
+  for (const std::string& warning : result.warnings) context.warn(warning);
+  return std::move(result);
 }
 
 }  // namespace
@@ -83,28 +84,34 @@ void judge_as_asked(const MeshOptions& options, MeshResult& result) {
 MeshResult search_budget(const MeshOptions& options, Run run, const Context& context) {
   const std::vector<MeshOptions> ladder = make_ladder(options);
   const double tolerance = options.sizing.tolerance;
-  std::optional<MeshResult> best = try_rung(ladder.front(), run, context);
-  if (best && !is_near_enough(*best, tolerance)) best.reset();  // in its turn
-  for (std::size_t k = best ? 0 : ladder.size(); k-- > 0;) {
+  std::optional<MeshResult> best, first = try_rung(ladder.front(), run, context);
+  if (first && (!first->is_limited || is_near_enough(*first, tolerance)))
+    return say_warnings(std::move(*first), context);
+  const auto is_nearer = [&](const MeshResult& next) {
+    return !best || rank(next, tolerance) < rank(*best, tolerance);
+  };
+  bool fits = true;
+  for (std::size_t k = ladder.size(); fits && --k > 0;) {
     std::optional<MeshResult> next = try_rung(ladder[k], run, context);
-    if (!next) break;
-    if (!best || rank(*next, tolerance) < rank(*best, tolerance)) best = std::move(*next);
+    fits = next.has_value();
+    if (fits && is_nearer(*next)) best = std::move(*next);
   }
+  if (fits && first && is_nearer(*first)) best = std::move(*first);
   if (!best)
     throw Error(ErrorCode::OutOfResources,
                 fmt::format("the coarsest mesh has more hexes than the budget of {}; raise "
                             "--max-hexes{}",
                             options.most_hexes,
                             options.sizing.min_level > 0 ? " or lower --min-level" : ""));
-  for (const std::string& warning : best->warnings) context.warn(warning);
-  if (best->tolerance > tolerance || distance_of(*best) > tolerance)
+  MeshResult result = say_warnings(std::move(*best), context);
+  if (result.tolerance > tolerance || distance_of(result) > tolerance)
     context.warn(fmt::format(
         "the budget of {} hexes ends refinement: the mesh has {} and departs by up to {:.3g}% of "
         "the diagonal, where {:.3g}% is asked for; raise --max-hexes or the tolerance",
-        options.most_hexes, counted(best->mesh.num_hexes(), "hex", "hexes"),
-        100 * distance_of(*best), 100 * tolerance));
-  judge_as_asked(options, *best);
-  return std::move(*best);
+        options.most_hexes, counted(result.mesh.num_hexes(), "hex", "hexes"),
+        100 * distance_of(result), 100 * tolerance));
+  judge_as_asked(options, result);
+  return result;
 }
 
 }  // namespace hexwright

@@ -91,13 +91,16 @@ void find_thin(const Target& target, double share, const Context& context,
   }
 }
 
+/// To two digits.
+double round_down(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit * (1 + 1e-12)) * unit;
+}
+
 /// What mesh would do about what preparation leaves.
 void foretell(const Target& target, const MeshOptions& options, SurfaceInspection& result) {
   const std::size_t num_groups = split_near_bodies(target, plan_gap(options, target)).size();
-  if (num_groups > 1)
-    result.notes.push_back(fmt::format(
-        "bodies that touch or nearly touch are meshed each by itself, in {} groups (--gap)",
-        num_groups));
+  if (num_groups > 1) result.notes.push_back(say_groups(num_groups));
   const std::size_t num_crossings = find_crossing_pairs(target.surface()).size();
   if (num_crossings > 0)
     result.notes.push_back(fmt::format(
@@ -109,7 +112,7 @@ void foretell(const Target& target, const MeshOptions& options, SurfaceInspectio
     result.notes.push_back(fmt::format(
         "walls thinner than the tolerance are kept only where cells are as small: for all of them "
         "--tolerance {:.2g}%",
-        100 * std::max(result.least_thickness / result.box.diagonal(), 1e-5)));
+        round_down(100 * std::max(result.least_thickness / result.box.diagonal(), 1e-5))));
 }
 
 void measure_object(const TriMesh& surface, const MeshOptions& options, const Context& context,

@@ -18,6 +18,7 @@
 #include "pipeline/budget_search.h"
 #include "pipeline/loop/budgets.h"
 #include "pipeline/loop/exact_boundary.h"
+#include "pipeline/loop/hex_limit.h"
 #include "pipeline/loop/loop.h"
 #include "pipeline/loop/outer_faces.h"
 #include "pipeline/loop/poor_hexes.h"
@@ -145,22 +146,30 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
   return context;
 }
 
+/// One of the groups of bodies that are meshed apart. What it says is said of it.
+MeshResult mesh_part(const Target& whole, const TriMesh& part, const MeshOptions& options,
+                     const Context& caller, std::size_t number) {
+  caller.check_cancelled();
+  const std::string whose = fmt::format("group {} (in shares of its own diagonal): ", number);
+  Context context = caller;
+  context.on_warning = [&](std::string_view said) { caller.warn(whose + std::string(said)); };
+  const MeshOptions wishes = plan_part(options, whole, part);
+  MeshResult result = mesh_target(make_target(part, plan_target(wishes), context), wishes, context);
+  for (std::string& failure : result.failures) failure = whose + failure;
+  return result;
+}
+
 /// Bodies that are too near to each other for one grid each by itself, then judged together.
 MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const Context& context) {
   const std::vector<TriMesh> parts = split_near_bodies(target, plan_gap(options, target));
   if (parts.empty()) return mesh_target(target, options, context);
   std::vector<MeshResult> results;
-  for (const TriMesh& part : parts) {
-    context.check_cancelled();
-    const MeshOptions wishes = plan_part(options, target, part);
-    results.push_back(
-        mesh_target(make_target(part, plan_target(wishes), context), wishes, context));
-  }
+  for (const TriMesh& part : parts)
+    results.push_back(mesh_part(target, part, options, context, results.size() + 1));
   MeshResult result = join_parts(std::move(results), target);
   result.diagonal = target.frame.length_to_world(target.diagonal());
   result.surface = target.diagnosis;
-  result.surface.notes.push_back(fmt::format(
-      "bodies that touch or nearly touch are meshed each by itself, in {} groups", parts.size()));
+  result.surface.notes.push_back(say_groups(parts.size()));
   JudgeOptions judged = plan_judge(options);
   judged.bound_gap = kBoundOfTolerance * options.sizing.tolerance;
   result.verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
@@ -201,7 +210,11 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const
   const Context context = collect_warnings(caller, warnings);
   const Target target = make_target(surface, plan_target(options), context);
   const auto run = [&](const MeshOptions& sized, const Context& of_run) {
-    return mesh_bodies(target, sized, of_run);
+    MeshResult made = mesh_bodies(target, sized, of_run);
+    // Bodies apart and layers add to what was counted before.
+    if (options.most_hexes > 0 && made.mesh.num_hexes() > options.most_hexes)
+      throw Error(ErrorCode::OutOfResources, say_beyond_limit(sized));
+    return made;
   };
   MeshResult result = options.most_hexes > 0 && !sets_size(options.sizes)
                           ? search_budget(options, run, context)

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <string_view>
 
+#include "hexwright/base/assert.h"
 #include "hexwright/geometry/prepare_surface.h"
 #include "hexwright/mesh/cut_hexes.h"
 #include "hexwright/pipeline/mesh_surface.h"
@@ -23,8 +26,10 @@ std::vector<std::uint8_t> labels_of_prepared(const PreparedSurface& prepared,
                 "the surface is open, so labels do not cover all of the polycube; close its holes "
                 "and label them");
   std::vector<std::uint8_t> result;
-  for (TriId source : prepared.source_tri)
-    result.push_back(source.is_valid() ? labels[source.index()] : std::uint8_t{0});
+  for (TriId source : prepared.source_tri) {
+    HEXWRIGHT_ASSERT(source.is_valid());  // only holes are filled with triangles of no source
+    result.push_back(labels[source.index()]);
+  }
   return result;
 }
 
@@ -94,9 +99,31 @@ struct Census {
   }
 };
 
+/// The mesher's budget is called --map-hexes here.
+std::string name_budget(std::string_view said) {
+  constexpr std::string_view kOfMesher = "--max-hexes";
+  std::string text(said);
+  if (const auto at = text.find(kOfMesher); at != std::string::npos)
+    text.replace(at, kOfMesher.size(), "--map-hexes");
+  return text;
+}
+
+MeshResult mesh_object(const TriMesh& surface, const MeshOptions& options, const Context& caller) {
+  Context context = caller;
+  context.on_warning = [&](std::string_view said) { caller.warn(name_budget(said)); };
+  try {
+    MeshResult result = mesh_surface(surface, options, context);
+    for (std::string& warning : result.warnings) warning = name_budget(warning);
+    return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::OutOfResources) throw;
+    throw Error(error.code(), name_budget(error.what()));
+  }
+}
+
 PolycubeMap map_at(const TriMesh& surface, const LabelCharts& charts,
                    const PolycubeMapOptions& options, double tolerance, const Context& context) {
-  const MeshResult meshed = mesh_surface(surface, mesh_options(options, tolerance), context);
+  const MeshResult meshed = mesh_object(surface, mesh_options(options, tolerance), context);
   if (meshed.mesh.num_hexes() == 0 || !meshed.verdict.is_valid())
     throw Error(ErrorCode::BadGeometry,
                 "no valid hexes of the surface to cut into tets; 'hexwright mesh' says what is "

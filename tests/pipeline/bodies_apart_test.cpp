@@ -71,17 +71,42 @@ TEST(BodiesApart, FarBodiesShareOneGridAndARowOfNeighboursNeedsTwo) {
   EXPECT_TRUE(mesh_of(far).mesh.region.empty());
 }
 
+// A large box that is met exactly, and a ball beside it that is not.
+TEST(BodiesApart, RecordsAndSentencesSayWhatTheyAreSharesOf) {
+  TriMesh ball = test::unit_sphere_surface(3);
+  for (Vec3& p : ball.positions) p += {5, 5, 5.01};
+  const TriMesh two = joined({box_surface({0, 0, 0}, {10, 10, 4}), ball});
+  MeshOptions options;
+  options.gap = 0.01;
+  options.max_rounds = 0;
+  options.sizing.tolerance = 0.002;
+  const MeshResult result = mesh_of(two, options);
+  ASSERT_EQ(result.rounds.size(), 2u);
+  const double farthest = std::max(result.rounds[0].max_distance, result.rounds[1].max_distance);
+  EXPECT_NEAR(farthest, distance_of(result), 0.1 * distance_of(result));
+  options.sizing.tolerance = 0.0005;
+  options.sizing.max_level = 2;  // too coarse by far
+  const MeshResult coarse = mesh_of(two, options);
+  ASSERT_FALSE(coarse.failures.empty());
+  const std::vector<std::string>& said = coarse.failures;
+  EXPECT_TRUE(std::ranges::any_of(said, [](const std::string& s) {
+    return s.starts_with("group ") && s.find("its own diagonal): the mesh departs") != s.npos;
+  })) << said.front();
+}
+
 TEST(BodiesApart, GapIsAnOptionWithZeroForNever) {
   MeshOptions options;
   for (NamedOption& row : make_option_table(options))
     if (row.name == "gap") {
       row.set("3%");
       EXPECT_DOUBLE_EQ(options.gap, 0.03);
-      for (const char* never : {"0", "0.0", "0%"}) {
+      for (const char* never : {"0", "0.0", "0%", "0.00", "0e3"}) {
         options.gap = 1;
         row.set(never);
         EXPECT_EQ(options.gap, 0) << never;
       }
+      for (const char* wrong : {"-1%", "", "100%", "never"})
+        EXPECT_THROW(row.set(wrong), Error) << wrong;
     }
 }
 

@@ -64,6 +64,18 @@ TEST(Inspect, ThinSpotsAndCavitiesAreTold) {
   }));
 }
 
+// A tolerance a little above the thickness would not help.
+TEST(Inspect, TheToleranceForThinWallsIsNoMoreThanTheirThickness) {
+  const TriMesh sheet = box_surface({0, 0, 0}, {100, 100, 0.298});
+  const SurfaceInspection s = inspect_surface(sheet, {}, {});
+  ASSERT_FALSE(s.notes.empty());
+  EXPECT_TRUE(s.notes.back().ends_with("--tolerance 0.21%")) << s.notes.back();
+  const TriMesh thinner = box_surface({0, 0, 0}, {100, 100, 0.281});  // 0.1987%
+  const SurfaceInspection t = inspect_surface(thinner, {}, {});
+  ASSERT_FALSE(t.notes.empty());
+  EXPECT_TRUE(t.notes.back().ends_with("--tolerance 0.19%")) << t.notes.back();
+}
+
 TEST(Inspect, WhatMeshWouldDoAboutNearBodiesAndCrossingsIsSaid) {
   const auto says = [](const TriMesh& surface, const char* text) {
     return std::ranges::any_of(

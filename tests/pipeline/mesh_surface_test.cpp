@@ -285,6 +285,17 @@ TEST(MeshSurface, BudgetsCostLevelsBeforeTheyCostTheMesh) {
   }
 }
 
+template <class Run>
+void expect_beyond_budget(const Run& run, const std::string& remedy) {
+  try {
+    run();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::OutOfResources);
+    EXPECT_NE(std::string(e.what()).find(remedy), std::string::npos) << e.what();
+  }
+}
+
 TEST(MeshSurface, MoreHexesNeverGiveAMeshThatIsFartherOff) {
   MeshOptions options;
   options.sizing.tolerance = 0.001;
@@ -316,7 +327,70 @@ TEST(MeshSurface, ABudgetThatIsNotUsedUpChangesNothing) {
   EXPECT_EQ(bound.mesh.positions.raw(), free.mesh.positions.raw());
   EXPECT_EQ(bound.warnings, free.warnings);
   options.most_hexes = 1;
-  EXPECT_THROW(mesh_surface(surface, options, {}), Error);
+  expect_beyond_budget([&] { mesh_surface(surface, options, {}); }, "raise --max-hexes");
+}
+
+// What a round too few leaves is no budget's fault.
+TEST(MeshSurface, ABudgetThatLimitsNothingChangesNothingOfAMeshBeyondTheTolerance) {
+  MeshOptions options = coarse();
+  options.sizing.tolerance = 0.008;
+  options.sizing.deviation_factor = 8;
+  options.max_rounds = 0;
+  const TriMesh surface = test::unit_sphere_surface(4);
+  const MeshResult free = mesh_surface(surface, options, {});
+  ASSERT_GT(free.verdict.distance->max_two_way(), options.sizing.tolerance);
+  ASSERT_TRUE(free.failures.empty());
+  options.most_hexes = 10 * free.mesh.num_hexes();
+  const MeshResult bound = mesh_surface(surface, options, {});
+  EXPECT_EQ(bound.mesh.positions.raw(), free.mesh.positions.raw());
+  EXPECT_EQ(bound.warnings, free.warnings);
+  EXPECT_FALSE(bound.is_limited);
+}
+
+TEST(MeshSurface, ABudgetIsThatOfAllBodiesTogetherWhateverSizesThem) {
+  const TriMesh two = test::joined(
+      {test::box_surface({0, 0, 0}, {10, 10, 4}), test::box_surface({0, 0, 4.02}, {10, 10, 8})});
+  MeshOptions options;
+  options.sizes.size = {1, false};
+  const std::size_t hexes = mesh_surface(two, options, {}).mesh.num_hexes();
+  options.most_hexes = hexes;
+  EXPECT_EQ(mesh_surface(two, options, {}).mesh.num_hexes(), hexes);
+  options.most_hexes = hexes - 1;
+  expect_beyond_budget([&] { mesh_surface(two, options, {}); }, "ask for a larger size");
+  options.sizes = {};
+  options.sizes.cells = static_cast<int>(hexes);
+  options.most_hexes = hexes / 2;
+  expect_beyond_budget([&] { mesh_surface(two, options, {}); }, "ask for fewer cells");
+}
+
+std::vector<std::string> failures_of_distance(const MeshResult& result) {
+  std::vector<std::string> found;
+  for (const std::string& failure : result.failures)
+    if (failure.find("departs from the surface") != std::string::npos) found.push_back(failure);
+  return found;
+}
+
+TEST(MeshSurface, AMeshThatABudgetKeepsBeyondTheGateFailsThatOfTheToleranceAskedFor) {
+  MeshOptions options;
+  options.sizing.tolerance = 0.0005;
+  options.sizing.deviation_factor = 40;
+  options.max_rounds = 0;
+  const TriMesh surface = test::unit_sphere_surface(4);
+  options.most_hexes = 300;
+  const MeshResult inside = mesh_surface(surface, options, {});
+  const std::vector<std::string> failures = failures_of_distance(inside);
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_NE(failures[0].find("more than the gate's 0.1%"), std::string::npos) << failures[0];
+}
+
+TEST(MeshSurface, NoGateOfDistanceHoldsForABudgetOutside) {
+  MeshOptions options;
+  options.sizing.tolerance = 0.001;
+  options.fit.carve.side = Side::Outside;
+  options.most_hexes = 3000;
+  const MeshResult outside = mesh_surface(test::unit_sphere_surface(3), options, {});
+  ASSERT_GT(outside.verdict.distance->max_two_way(), kGateFactor * options.sizing.tolerance);
+  EXPECT_TRUE(failures_of_distance(outside).empty()) << outside.failures.front();
 }
 
 TEST(MeshSurface, StopsWhenCancelled) {

@@ -1,6 +1,8 @@
 // The plan: what each stage is asked for follows from the wishes and the surface alone.
 #include "hexwright/pipeline/plan.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "hexwright/pipeline/stages.h"
@@ -76,9 +78,15 @@ TEST(Plan, GuardsFollowALargeBudgetOfHexes) {
   EXPECT_GE(large.budgets.background, wishes.most_hexes);
   EXPECT_GE(large.budgets.rounds, wishes.most_hexes);
   EXPECT_GE(large.sizing.max_cells, wishes.most_hexes);
+  EXPECT_GE(large.even.max_cells, wishes.most_hexes);
+  wishes.most_hexes = std::numeric_limits<std::size_t>::max();
+  const StagePlan largest = plan(wishes, wrap_target(test::unit_cube_surface()));
+  EXPECT_GE(largest.budgets.background, large.budgets.background);
+  EXPECT_GE(largest.budgets.rounds, large.budgets.rounds);
   wishes.most_hexes = 1000;
   const StagePlan small = plan(wishes, wrap_target(test::unit_cube_surface()));
   EXPECT_EQ(small.budgets.background, wishes.max_hexes);
+  EXPECT_EQ(small.even.max_cells, wishes.even.max_cells);
 }
 
 TEST(Budgets, SayWhichHowMuchAndWhatToDo) {

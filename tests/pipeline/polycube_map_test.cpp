@@ -64,10 +64,32 @@ TEST(PolycubeMap, BallBecomesACubeAndHexes) {
   EXPECT_NEAR(summarize_quality(hexes.mesh).total_volume, 4.0 / 3 * 3.14159, 0.4);
 }
 
+TEST(PolycubeMap, NamesItsOwnBudget) {
+  const TriMesh ball = round_cube(2);
+  PolycubeMapOptions options;
+  options.max_hexes = 5;
+  try {
+    make_polycube_map(ball, labels_of_places(ball), options, {});
+    FAIL() << "made of five hexes";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::OutOfResources);
+    const std::string said = error.what();
+    EXPECT_NE(said.find("--map-hexes"), std::string::npos) << said;
+    EXPECT_EQ(said.find("--max-hexes"), std::string::npos) << said;
+  }
+}
+
 TEST(PolycubeMap, RefusesWhatIsNoPolycubeBeforeMeshing) {
   const TriMesh ball = round_cube(2);
   auto labels = labels_of_places(ball);
-  EXPECT_THROW(make_polycube_map(ball, std::span(labels).first(7), {}, {}), Error);
+  try {
+    make_polycube_map(ball, std::span(labels).first(7), {}, {});
+    FAIL() << "seven labels were taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BadArgument);
+    EXPECT_NE(std::string(error.what()).find("give one per triangle"), std::string::npos)
+        << error.what();
+  }
   for (std::uint8_t& label : labels) label = label == 5 ? 4 : label;
   try {
     make_polycube_map(ball, labels, {}, {});

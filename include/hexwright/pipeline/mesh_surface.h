@@ -132,7 +132,8 @@ struct MeshResult {
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit
   int best_round = 0;
-  double seconds = 0;  ///< wall clock of everything
+  bool is_limited = false;  ///< by MeshOptions::most_hexes: a finer mesh was refused for its hexes
+  double seconds = 0;       ///< wall clock of everything
   std::vector<std::string> warnings;
   std::vector<std::string> failures;  ///< why the mesh misses the gate; empty = done and valid
 

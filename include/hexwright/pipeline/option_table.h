@@ -65,7 +65,7 @@ OptionTable make_option_table(EvaluateOptions& options);
 const NamedOption* find_option(const OptionTable& table, std::string_view name);
 
 /// A share of the diagonal: "0.5%" or "0.005". Throws Error{BadArgument}.
-double parse_share(const std::string& text);
+double parse_share(const std::string& text, bool zero_allowed = false);
 
 /// "0.5%" for 0.005.
 std::string share_to_text(double share);

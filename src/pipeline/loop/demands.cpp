@@ -37,28 +37,23 @@ std::vector<Vec3> places_far_off(const RoundInput&, const Round& round) {
   return round.verdict.distance ? round.verdict.distance->hot : std::vector<Vec3>{};
 }
 
-/// Only meshes whose sizing aimed at a distance can miss one; around the object the outer box is no
-/// part of the surface.
-bool is_gated(const RoundInput& input, const Round& round) {
-  return input.options.sizing.sizing == Sizing::Deviation && is_inside(input) &&
-         !is_near(input, round);
-}
-
-std::string say_distance(const Round& round, const char* limit_name, double limit) {
+std::string say_distance(double distance, const char* limit_name, double limit) {
   return fmt::format(
       "the mesh departs from the surface by up to {:.3g}% of the diagonal, {} {:.3g}%",
-      100 * max_distance(round), limit_name, 100 * limit);
+      100 * distance, limit_name, 100 * limit);
 }
 
-std::string say_beyond_gate(const RoundInput& input, const Round& round) {
-  if (!round.verdict.distance || !is_gated(input, round)) return {};
-  return say_distance(round, "more than the gate's", kGateFactor * input.options.sizing.tolerance);
+std::string say_if_gated(const RoundInput& input, const Round& round) {
+  if (!round.verdict.distance || !is_gated(input.options, max_distance(round))) return {};
+  return say_beyond_gate(max_distance(round), input.options.sizing.tolerance);
 }
 
 std::string say_beyond_tolerance(const RoundInput& input, const Round& round) {
-  if (!round.verdict.distance || is_within_tolerance(input, round) || is_gated(input, round))
+  if (!round.verdict.distance || is_within_tolerance(input, round) ||
+      is_gated(input.options, max_distance(round)))
     return {};
-  return say_distance(round, "more than the tolerance of", input.options.sizing.tolerance);
+  return say_distance(max_distance(round), "more than the tolerance of",
+                      input.options.sizing.tolerance);
 }
 
 /// Tips of wedges are lost on any grid; with the right topology only their distance counts.
@@ -181,7 +176,7 @@ constexpr Demand kDemands[] = {
     {.name = "within_gate",
      .is_met = is_near,
      .shortfall = distance_beyond_tolerance,
-     .sentence = say_beyond_gate,
+     .sentence = say_if_gated,
      .is_distance = true,
      .severity = Severity::Failure},
     {.name = "topology",
@@ -253,6 +248,15 @@ double volume_off(const RoundInput& input, const Round& round) {
   const bool is_known = input.options.sizing.sizing == Sizing::Deviation && is_inside(input) &&
                         input.target.expected.is_all_boundary() && round.verdict.volume_error;
   return is_known ? std::abs(*round.verdict.volume_error) : 0;
+}
+
+bool is_gated(const MeshOptions& options, double distance) {
+  return options.sizing.sizing == Sizing::Deviation && options.fit.carve.side == Side::Inside &&
+         distance > kGateFactor * options.sizing.tolerance;
+}
+
+std::string say_beyond_gate(double distance, double tolerance) {
+  return say_distance(distance, "more than the gate's", kGateFactor * tolerance);
 }
 
 double max_distance(const Round& round) {

@@ -50,6 +50,11 @@ bool misses_features(const RoundInput& input, const Round& round);
 /// By how much the volume is off, as a share of the surface's; 0 where that is not known.
 double volume_off(const RoundInput& input, const Round& round);
 
+/// Whether a mesh so far off fails: only where sizing aimed at a distance, and of the inside, for
+/// the box around an object is no part of the surface. Shares of the diagonal.
+bool is_gated(const MeshOptions& options, double distance);
+std::string say_beyond_gate(double distance, double tolerance);
+
 /// Two-way, as shares of the diagonal; 1 = no distance was measured.
 double max_distance(const Round& round);
 double mean_distance(const Round& round);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/judge.h"
 
@@ -50,7 +51,7 @@ class ExactMover {
     report.max_before = largest_miss();
     for (int sweep = 0; sweep < kSweeps; ++sweep)
       for (const VertId v : goal_.ids()) {
-        check_now_and_then(v);
+        check_cancelled();
         if (goal_[v]) move(v);
       }
     for (const VertId v : goal_.ids()) {
@@ -64,10 +65,6 @@ class ExactMover {
   }
 
  private:
-  void check_now_and_then(VertId v) const {
-    if (v.index() % 256 == 0) input_.context.check_cancelled();
-  }
-
   void add_quad(const LabeledQuad& quad, double sign) {
     const auto& p = mesh_.positions;
     const auto& q = quad.verts;
@@ -84,7 +81,7 @@ class ExactMover {
   void find_goals() {
     goal_.resize(mesh_.num_verts());
     for (const VertId v : place_.ids()) {
-      check_now_and_then(v);
+      check_cancelled();
       if (place_[v] != Place::None) goal_[v] = find_goal(v);
     }
   }

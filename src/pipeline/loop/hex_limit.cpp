@@ -1,5 +1,7 @@
 #include "pipeline/loop/hex_limit.h"
 
+#include <fmt/format.h>
+
 #include "hexwright/base/parallel.h"
 
 namespace hexwright {
@@ -24,6 +26,15 @@ bool may_be_within_limit(const RoundInput& input, const Grid& grid) {
       },
       [](std::size_t a, std::size_t b) { return a + b; });
   return static_cast<double>(count) <= most;
+}
+
+std::string say_beyond_limit(const MeshOptions& options) {
+  const char* remedy = "the tolerance";
+  if (options.sizes.size.is_given()) remedy = "ask for a larger size";
+  if (options.sizes.cells > 0) remedy = "ask for fewer cells";
+  return fmt::format(
+      "the mesh would have more hexes than the budget of {}; raise --max-hexes or {}",
+      options.most_hexes, remedy);
 }
 
 }  // namespace hexwright

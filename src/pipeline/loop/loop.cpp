@@ -98,20 +98,6 @@ std::optional<Grid> next_grid(const RoundInput& input, const Round& round, const
                         deepest_level(input.options), input.plan.sizes);
 }
 
-/// The budget that a next grid would exceed, as a sentence; empty = none.
-std::string find_exceeded(const RoundInput& input, const Round& round, std::size_t num_cells,
-                          std::size_t num_spent, bool is_split) {
-  const Budgets& budgets = input.plan.budgets;
-  const auto cells = static_cast<double>(num_cells);
-  if (num_cells > budgets.background) return say_exceeded(Budget::Background, cells, budgets);
-  if (num_spent + num_cells > budgets.rounds)
-    return say_exceeded(Budget::Rounds, cells + static_cast<double>(num_spent), budgets);
-  if (is_split && is_out_of_proportion(input, round, num_cells))
-    return say_exceeded(Budget::Growth, cells / static_cast<double>(round.grid.num_cells()),
-                        budgets);
-  return {};
-}
-
 }  // namespace
 
 bool is_content(const RoundInput& input, const Round& round) {
@@ -136,6 +122,19 @@ bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size
   return is_within_gate(input, round) &&
          static_cast<double>(num_next_cells) >
              input.plan.budgets.growth * static_cast<double>(round.grid.num_cells());
+}
+
+std::string find_exceeded(const RoundInput& input, const Round& round, std::size_t num_cells,
+                          std::size_t num_spent, bool is_split) {
+  const Budgets& budgets = input.plan.budgets;
+  const auto cells = static_cast<double>(num_cells);
+  if (num_cells > budgets.background) return say_exceeded(Budget::Background, cells, budgets);
+  if (num_spent + num_cells > budgets.rounds)
+    return say_exceeded(Budget::Rounds, cells + static_cast<double>(num_spent), budgets);
+  if (is_split && is_out_of_proportion(input, round, num_cells))
+    return say_exceeded(Budget::Growth, cells / static_cast<double>(round.grid.num_cells()),
+                        budgets);
+  return {};
 }
 
 std::optional<double> scale_for_mean(const RoundInput& input, const Round& round) {
@@ -211,12 +210,7 @@ CompleteResult even_out(const RoundInput& input, const Grid& given, bool is_even
 
 Round refine_where_missed(const RoundInput& input, CompleteResult completed, MeshResult& result) {
   const MeshOptions& options = input.options;
-  const auto refuse = [&] {
-    throw Error(ErrorCode::OutOfResources,
-                fmt::format("the mesh would have more hexes than the budget of {}; raise "
-                            "--max-hexes or the tolerance",
-                            options.most_hexes));
-  };
+  const auto refuse = [&] { throw Error(ErrorCode::OutOfResources, say_beyond_limit(options)); };
   if (!may_be_within_limit(input, completed.grid)) refuse();
   Round current = run_round(input, std::move(completed));
   if (!is_within_limit(input, current)) refuse();
@@ -238,11 +232,13 @@ Round refine_where_missed(const RoundInput& input, CompleteResult completed, Mes
           fmt::format("refinement stops after round {}: {}", result.num_rounds, exceeded));
       break;
     }
-    if (!may_be_within_limit(input, next.grid)) break;
+    result.is_limited = !may_be_within_limit(input, next.grid);
+    if (result.is_limited) break;
     current = run_round(input, std::move(next));
     total_hexes += current.record.num_background;
     ++result.num_rounds;
-    if (!is_within_limit(input, current)) {
+    result.is_limited = !is_within_limit(input, current);
+    if (result.is_limited) {
       result.rounds.push_back(current.record);
       break;
     }

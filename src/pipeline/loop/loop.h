@@ -11,6 +11,11 @@ bool is_content(const RoundInput& input, const Round& round);
 /// Whether a next grid of so many cells would break the plan's Budgets::growth.
 bool is_out_of_proportion(const RoundInput& input, const Round& round, std::size_t num_next_cells);
 
+/// The budget that a next grid of so many cells would exceed, as a sentence; empty = none. Spent:
+/// by the rounds so far. Only where cells are split may it be out of proportion.
+std::string find_exceeded(const RoundInput& input, const Round& round, std::size_t num_cells,
+                          std::size_t num_spent, bool is_split);
+
 /// Whether `a` is the better result. Beyond the gate the one without inverted hexes, then one that
 /// is several times nearer. Then the first demand that only one of them meets decides. When
 /// both meet the same, the shortfall of the first that is missed decides; when none is missed by

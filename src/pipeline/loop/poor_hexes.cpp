@@ -67,10 +67,9 @@ bool is_any(const std::vector<char>& marks) {
 /// Whether a grid grows little over the round's, and is within the budgets.
 bool is_affordable(const RoundInput& input, const Round& round, std::size_t num_cells,
                    std::size_t num_spent) {
-  const Budgets& budgets = input.plan.budgets;
   return static_cast<double>(num_cells) <=
              kMostGrowth * static_cast<double>(round.grid.num_cells()) &&
-         num_cells <= budgets.background && num_spent + num_cells <= budgets.rounds;
+         find_exceeded(input, round, num_cells, num_spent, false).empty();
 }
 
 /// The grid for another try, completed; absent when nothing can be split, or only at too many
@@ -89,10 +88,11 @@ std::optional<CompleteResult> next_try(const RoundInput& input, const Round& rou
   return {};
 }
 
-/// With a budget of hexes, more of them never give a mesh that is farther off.
-bool keeps_budget(const RoundInput& input, const Round& before, const Round& after) {
+/// With a budget of hexes, more of them never give a mesh that is farther off; within the tolerance
+/// all are alike.
+bool is_no_farther(const RoundInput& input, const Round& before, const Round& after) {
   return input.options.most_hexes == 0 ||
-         (is_within_limit(input, after) && max_distance(after) <= max_distance(before));
+         max_distance(after) <= std::max(max_distance(before), input.options.sizing.tolerance);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::vector<Vec3> find_poor_places(const HexMesh& mesh, double goal) {
 
 Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& result) {
   const double goal = kPoorShare * input.options.fit.lift_goal;
-  const auto most_hexes =
+  const auto most_for_this =
       static_cast<std::size_t>(kMostHexes * static_cast<double>(lifted.fit.mesh.num_hexes()));
   std::size_t num_spent = 0;
   for (const RoundRecord& record : result.rounds) num_spent += record.num_background;
@@ -128,9 +128,13 @@ Round refine_where_poor(const RoundInput& input, Round lifted, MeshResult& resul
     result.rounds.push_back(current.record);
     num_spent += current.record.num_background;
     ++result.num_rounds;
-    if (current.fit.mesh.num_hexes() > most_hexes || !meets_no_less(input, best, current) ||
-        !is_sounder(current, best) || !keeps_budget(input, best, current))
+    if (current.fit.mesh.num_hexes() > most_for_this || !meets_no_less(input, best, current) ||
+        !is_sounder(current, best) || !is_no_farther(input, best, current))
       continue;
+    if (!is_within_limit(input, current)) {
+      result.is_limited = true;
+      continue;
+    }
     best = current;
     result.best_round = result.num_rounds;
   }

@@ -61,13 +61,13 @@ NamedOption make_row(RowText text, OptionKind kind, std::string allowed, std::st
 
 }  // namespace
 
-double parse_share(const std::string& text) {
+double parse_share(const std::string& text, bool zero_allowed) {
   const bool is_percent = text.ends_with('%');
   const auto number = to_number(std::string_view(text).substr(0, text.size() - is_percent));
-  const double value = number.value_or(0) / (is_percent ? 100 : 1);
+  const double value = number.value_or(-1) / (is_percent ? 100 : 1);
   // A share of 1 or more is nearly always a forgotten percent sign.
-  if (!(value > 0) || !(value < 1))
-    refuse(text, "not a share of the diagonal; write e.g. 0.5% or 0.005");
+  const bool is_share = (value > 0 && value < 1) || (zero_allowed && value == 0);
+  if (!is_share) refuse(text, "not a share of the diagonal; write e.g. 0.5% or 0.005");
   return value;
 }
 

@@ -167,13 +167,7 @@ NamedOption gap_row(double& gap) {
       gap);
   row.allowed = "0, or a share of the diagonal below 100%";
   row.fallback = "twice the tolerance";
-  row.set = [&gap, set = std::move(row.set)](const std::string& text) {
-    const bool is_never = text == "0" || text == "0.0" || text == "0%";
-    if (is_never)
-      gap = 0;
-    else
-      set(text);
-  };
+  row.set = [&gap](const std::string& text) { gap = parse_share(text, true); };
   return row;
 }
 

@@ -27,10 +27,12 @@ constexpr double kMaxGrowth = 2.5;
 
 /// Guards of a budget that is larger than they are: the background has cells outside too.
 constexpr double kBackgroundOfHexes = 4, kRoundsOfHexes = 1.4;
+/// Budgets beyond this are alike: several times as many still fit a std::size_t.
+constexpr double kMostOfHexes = 0x1p60;
 
 Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
   const bool is_sound = target.expected.is_known && target.diagnosis.num_boundary_edges == 0;
-  const auto most = static_cast<double>(wishes.most_hexes);
+  const double most = std::min(static_cast<double>(wishes.most_hexes), kMostOfHexes);
   const auto at_least = [&](std::size_t guard, double factor) {
     return std::max(guard, static_cast<std::size_t>(factor * most));
   };
@@ -87,7 +89,8 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   plan.judge = plan_judge(wishes);
   plan.budgets = plan_budgets(wishes, target);
   if (wishes.most_hexes > 0)
-    plan.sizing.max_cells = std::max(plan.sizing.max_cells, plan.budgets.background);
+    for (std::size_t* cells : {&plan.sizing.max_cells, &plan.even.max_cells})
+      *cells = std::max(*cells, plan.budgets.background);
   return plan;
 }
 
