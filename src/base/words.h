@@ -1,7 +1,10 @@
-// Numbers in sentences for people.
+// Numbers and places in sentences for people.
 #pragma once
 
+#include <cstdio>
 #include <string>
+
+#include "hexwright/base/vec3.h"
 
 namespace hexwright {
 
@@ -19,6 +22,13 @@ inline std::string grouped(std::size_t value) {
 /// "1 hex", "2,000 hexes".
 inline std::string counted(std::size_t count, const char* one, const char* many) {
   return grouped(count) + " " + (count == 1 ? one : many);
+}
+
+/// "(0.5, 2, -1.25)": four digits each.
+inline std::string place(const Vec3& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", p.x, p.y, p.z);
+  return text;
 }
 
 }  // namespace hexwright

@@ -459,6 +459,9 @@ def read_cgns(folder, samples):
     """Its elements by VTK's reader, which is built on the CGNS library, and what that does not give one by one by h5py."""
     from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
 
+    if not foreign_reader.is_installed("module", "h5py"):
+        print("'h5py' is not installed: skipped")
+        sys.exit(foreign_reader.SKIPPED)
     reader = vtkCGNSReader()
     path = folder / "named.cgns"
     reader.SetFileName(str(path))

@@ -103,6 +103,15 @@ TEST(SurfaceLabels, RefusesOpenSurfacesAndWrongCounts) {
   TriMesh cube = test::unit_cube_surface();
   const auto labels = labels_of_normals(cube);
   EXPECT_THROW(find_label_charts(cube, std::span(labels).first(5)), Error);
+  auto wrong = labels;
+  wrong[3] = 6;
+  try {
+    find_label_charts(cube, wrong);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BadArgument);
+    EXPECT_NE(std::string(error.what()).find("triangle 3 is 6"), std::string::npos);
+  }
   cube.tris.raw().pop_back();
   EXPECT_NE(message_of(cube, {labels.begin(), labels.end() - 1}).find("not closed"),
             std::string::npos);
@@ -193,7 +202,7 @@ TEST(Deform, FacesThatCannotLookTheirWayAreRefused) {
   }
 }
 
-TEST(Deform, IsTheSameAtAnyScaleAndPlace) {
+TEST(Deform, IsTheSameAtAnyScale) {
   const TetMesh bar = test::tet_cubes({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, 2);
   const TetMesh object = test::mapped(bar, [](Vec3 p) {
     return p + Vec3{0.1 * p.z * p.z, 0, 0.1 * p.x * p.y};

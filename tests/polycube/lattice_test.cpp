@@ -8,6 +8,7 @@
 
 #include "hexwright/base/error.h"
 
+#include "polycube/even_lattice.h"
 #include "polycube/lattice/charts.h"
 #include "polycube/tet_builders.h"
 #include "polycube/tets/tet_boundary.h"
@@ -197,6 +198,20 @@ TEST(Charts, LeaningFacetsStayWithTheFaceTheyNearlyFace) {
   const Lattice lattice = fit_lattice(cube, 0);
   EXPECT_EQ(lattice.charts.size(), 6u);
   EXPECT_EQ(lattice.num_unaligned, 0u);
+}
+
+TEST(Lattice, MoreCubesThanAllowedAreRefused) {
+  const TetMesh bar = test::tet_cubes({{0, 0, 0}, {1, 0, 0}}, 1);
+  EXPECT_EQ(fit_lattice(bar, 1, 2).roots.size(), 2u);
+  try {
+    fit_lattice(bar, 1, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::OutOfResources);
+    EXPECT_NE(std::string(error.what()).find("2 lattice cubes, more than the 1 cells allowed"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 
 #include "geometry/random_soup.h"
 #include "helpers.h"
+#include "polycube/even_lattice.h"
 #include "polycube/lattice/merge_charts.h"
 #include "polycube/map/map_back.h"
 #include "polycube/map/refine_misses.h"

@@ -4,6 +4,7 @@
 #include "hexwright/polycube/polycube.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "polycube/even_lattice.h"
 #include "polycube/map/repair_map.h"
 #include "polycube/tet_builders.h"
 #include "polycube/tets/tet_boundary.h"

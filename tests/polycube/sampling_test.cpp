@@ -8,6 +8,7 @@
 #include "hexwright/quality/hex_quality.h"
 #include "hexwright/quality/surface_distance.h"
 
+#include "polycube/even_lattice.h"
 #include "polycube/map/refine_misses.h"
 #include "polycube/map/sample_map.h"
 #include "polycube/map/surface_misses.h"

@@ -25,16 +25,8 @@ struct TetGradients {
 };
 
 TetGradients gradients_of(const TetMesh& mesh, TetId t) {
-  constexpr std::size_t kOpposite[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   const auto p = tet_corners(mesh, t);
-  const double six_volumes = tet_det(p);
-  TetGradients g;
-  g.volume = six_volumes / 6;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto& o = kOpposite[k];
-    g.of[k] = cross(p[o[1]] - p[o[0]], p[o[2]] - p[o[0]]) / six_volumes;
-  }
-  return g;
+  return {barycentric_gradients(p), tet_det(p) / 6};
 }
 
 class FieldSolver {
@@ -108,14 +100,11 @@ class FieldSolver {
   // As much flows in as out, whatever the areas.
   std::vector<double> flow(std::span<const AxisFace> faces) const {
     double up = 0, down = 0;
-    for (const AxisFace& face : faces)
-      (face.sign > 0 ? up : down) += std::accumulate(face.areas.begin(), face.areas.end(), 0.0);
+    for (const AxisFace& face : faces) (face.sign > 0 ? up : down) += face.area;
     const double mean = std::sqrt(up * down);
     std::vector<double> rhs(num_unknowns_, 0);
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      const double area = std::accumulate(faces[f].areas.begin(), faces[f].areas.end(), 0.0);
-      rhs[f] = faces[f].sign > 0 ? area * mean / up : -area * mean / down;
-    }
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      rhs[f] = faces[f].sign > 0 ? faces[f].area * mean / up : -faces[f].area * mean / down;
     return rhs;
   }
 

@@ -13,7 +13,7 @@ namespace hexwright::polycube {
 struct AxisFace {
   int sign = 1;
   std::vector<VertId> verts;  ///< ascending
-  std::vector<double> areas;  ///< of the face around each of them
+  double area = 0;
 };
 
 /// One value per vertex: equal within each face, growing towards faces that look up the axis, with

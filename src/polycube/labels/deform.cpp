@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "hexwright/base/error.h"
 #include "hexwright/geometry/similarity.h"
 
+#include "base/words.h"
 #include "polycube/labels/axis_field.h"
 #include "polycube/tets/tet_boundary.h"
 #include "polycube/tets/tet_locator.h"
@@ -23,55 +23,43 @@ namespace {
 using polycube::AxisFace;
 using polycube::Tie;
 
-constexpr int kPolishRounds = 1;
-
 std::vector<AxisFace> faces_across(const TriMesh& surface, const LabelCharts& charts, int axis) {
-  std::vector<std::vector<std::pair<VertId, double>>> of_chart(charts.chart_label.size());
+  std::vector<AxisFace> of_chart(charts.chart_label.size());
   for (TriId t : surface.tris.ids()) {
+    const auto chart = static_cast<std::size_t>(charts.chart[t]);
+    if (label_axis(charts.chart_label[chart]) != axis) continue;
     const auto p = surface.corners(t);
-    const double third = norm(cross(p[1] - p[0], p[2] - p[0])) / 6;
-    for (VertId v : surface.tris[t])
-      of_chart[static_cast<std::size_t>(charts.chart[t])].push_back({v, third});
+    AxisFace& face = of_chart[chart];
+    face.sign = label_sign(charts.chart_label[chart]);
+    face.area += norm(cross(p[1] - p[0], p[2] - p[0])) / 2;
+    face.verts.insert(face.verts.end(), surface.tris[t].begin(), surface.tris[t].end());
   }
-  std::vector<AxisFace> faces;
-  for (std::size_t c = 0; c < of_chart.size(); ++c) {
-    if (label_axis(charts.chart_label[c]) != axis) continue;
-    auto& list = of_chart[c];
-    std::stable_sort(list.begin(), list.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    AxisFace face{label_sign(charts.chart_label[c]), {}, {}};
-    for (const auto& [v, area] : list) {
-      if (face.verts.empty() || face.verts.back() != v) {
-        face.verts.push_back(v);
-        face.areas.push_back(0);
-      }
-      face.areas.back() += area;
-    }
-    faces.push_back(std::move(face));
+  std::erase_if(of_chart, [](const AxisFace& face) { return face.verts.empty(); });
+  for (AxisFace& face : of_chart) {
+    std::sort(face.verts.begin(), face.verts.end());
+    face.verts.erase(std::unique(face.verts.begin(), face.verts.end()), face.verts.end());
   }
-  return faces;
+  return of_chart;
 }
 
 // The shape that a tet strives for: its own, or where that is flat, as hexes with two faces on a
-// smooth surface have it, that of the tets a cube is cut into, of equal mean edge. Flat ones would
-// take most of the work, for nothing: on the polycube they have corners.
+// smooth surface have it, that of the tets a cube is cut into, of equal edges in the mean. Flat
+// ones would take most of the work, for nothing: on the polycube they have corners.
 std::array<Vec3, 4> reference_shape(const std::array<Vec3, 4>& tet) {
   constexpr double kGoodEnough = 0.2;
   constexpr std::array<Vec3, 4> kOfCube = {Vec3{0, 0, 0.5}, Vec3{-0.5, -0.5, 0}, Vec3{-0.5, 0.5, 0},
                                            Vec3{0, 0, 0}};
-  const auto mean_edge = [](const std::array<Vec3, 4>& p) {
+  constexpr double kDetOfCube = 0.25;
+  const auto rms_edge = [](const std::array<Vec3, 4>& p) {
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < i; ++j) sum += norm_sq(p[i] - p[j]) / 6;
     return std::sqrt(sum);
   };
-  const double edge = mean_edge(tet), ideal = mean_edge(kOfCube);
-  const double scale = edge / ideal;
+  const double scale = rms_edge(tet) / rms_edge(kOfCube);
+  if (polycube::tet_det(tet) >= kGoodEnough * kDetOfCube * scale * scale * scale) return tet;
   auto cube = kOfCube;
   for (Vec3& p : cube) p *= scale;
-  const double volume = std::abs(polycube::tet_det(cube));
-  if (polycube::tet_det(tet) >= kGoodEnough * volume) return tet;
-  if (polycube::tet_det(cube) < 0) std::swap(cube[1], cube[2]);
   return cube;
 }
 
@@ -84,11 +72,9 @@ std::array<Vec3, 4> reference_shape(const std::array<Vec3, 4>& tet) {
       if (num_folded++ > 0) continue;
       for (const Vec3& p : polycube::tet_corners(object, t)) first += p * 0.25;
     }
-  char place[96];
-  std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g)", first.x, first.y, first.z);
   throw Error(ErrorCode::BadGeometry,
               "the labels lead to a polycube that folds " + std::to_string(num_folded) + " of " +
-                  std::to_string(polycube.num_tets()) + " tets, the first at " + place +
+                  std::to_string(polycube.num_tets()) + " tets, the first at " + place(first) +
                   "; let faces meet there as those of a polycube do, or give the tets more room by "
                   "a smaller tolerance");
 }
@@ -104,9 +90,7 @@ void check_faces(const Deformation& result) {
     const Vec3 n = cross(p[f[1]] - p[f[0]], p[f[2]] - p[f[0]]);
     if (n[label_axis(label)] * label_sign(label) > 0) continue;
     const Vec3 at = result.surface.positions[f[0]];
-    char place[96];
-    std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g)", at.x, at.y, at.z);
-    throw Error(ErrorCode::BadGeometry, "the face " + label_name(label) + " at " + place +
+    throw Error(ErrorCode::BadGeometry, "the face " + label_name(label) + " at " + place(at) +
                                             " comes to look the other way in the polycube; label "
                                             "it, or the faces around it, differently");
   }
@@ -152,8 +136,7 @@ Deformation deform_to_polycube(
   }
   const IdVector<VertId, std::uint8_t> free_axes(object.num_verts(), 7);
   const auto reference = [&](TetId t) { return reference_shape(polycube::tet_corners(unit, t)); };
-  if (polycube::unfold(unit, free_axes, result.polycube, {ties, reference, kPolishRounds},
-                       context) > 0)
+  if (polycube::unfold(unit, free_axes, result.polycube, {ties, reference, true}, context) > 0)
     refuse_folds(object, result.polycube);
   check_faces(result);
   measure(unit, result);

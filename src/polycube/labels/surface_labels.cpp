@@ -1,21 +1,15 @@
 #include "hexwright/polycube/surface_labels.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "hexwright/base/error.h"
 
+#include "base/words.h"
 #include "geometry/topology/surface_edges.h"
 
 namespace hexwright {
 namespace {
-
-std::string place(const Vec3& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", p.x, p.y, p.z);
-  return text;
-}
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::BadGeometry, "the labelling cannot be mapped to a polycube: " + what);
@@ -153,6 +147,12 @@ LabelCharts find_label_charts(const TriMesh& surface, std::span<const std::uint8
     throw Error(ErrorCode::BadArgument, std::to_string(labels.size()) + " labels for " +
                                             std::to_string(surface.num_tris()) +
                                             " triangles; give one per triangle");
+  for (std::size_t t = 0; t < labels.size(); ++t)
+    if (labels[t] > 5)
+      throw Error(ErrorCode::BadArgument,
+                  "the label of triangle " + std::to_string(t) + " is " +
+                      std::to_string(labels[t]) +
+                      "; give one of 0 to 5, which stand for +x, -x, +y, -y, +z, -z");
   return ChartFinder(surface, labels).run();
 }
 

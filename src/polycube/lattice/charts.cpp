@@ -105,10 +105,12 @@ IdVector<TriId, int> facet_directions(const Lattice& lattice, std::size_t& num_u
                                       const IdVector<TriId, std::array<TriId, 3>>& neighbor) {
   IdVector<TriId, int> direction(lattice.facets.size(), -1);
   IdVector<TriId, Vec3> normals(lattice.facets.size());
+  IdVector<TriId, double> areas(lattice.facets.size());
   double area = 0, unaligned_area = 0;
   for (TriId t : lattice.facets.ids()) {
     const Vec3 n = facet_geometry(lattice.tets, lattice.facets[t]).normal;
-    area += norm(n);
+    areas[t] = norm(n);
+    area += areas[t];
     normals[t] = normalized(n);
     direction[t] = facet_direction(n);
   }
@@ -117,7 +119,7 @@ IdVector<TriId, int> facet_directions(const Lattice& lattice, std::size_t& num_u
   for (TriId t : lattice.facets.ids()) {
     if (direction[t] >= 0) continue;
     ++num_unaligned;
-    unaligned_area += norm(facet_geometry(lattice.tets, lattice.facets[t]).normal);
+    unaligned_area += areas[t];
     if (!first_unaligned.is_valid()) first_unaligned = t;
   }
   if (unaligned_area > kNegligibleArea * area)

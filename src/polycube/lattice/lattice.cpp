@@ -108,10 +108,4 @@ Lattice place_on_lattice(const Faces& faces, const AxisScales& scales, double sp
   return lattice;
 }
 
-Lattice fit_lattice(const TetMesh& polycube, double spacing, std::size_t max_roots) {
-  const Faces faces = find_faces(polycube, spacing);
-  if (spacing <= 0) spacing = geometric_spacing(faces.planes);
-  return place_on_lattice(faces, even_scales(faces.planes, spacing), spacing, max_roots);
-}
-
 }  // namespace hexwright::polycube

@@ -41,8 +41,4 @@ struct Faces;
 Lattice place_on_lattice(const Faces& faces, const AxisScales& scales, double spacing,
                          std::size_t max_roots);
 
-/// On an even lattice. `spacing` 0 derives it: geometric_spacing(). Errors: also those of
-/// find_faces().
-Lattice fit_lattice(const TetMesh& polycube, double spacing, std::size_t max_roots = 2'000'000);
-
 }  // namespace hexwright::polycube

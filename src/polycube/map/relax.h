@@ -11,9 +11,9 @@ namespace hexwright::polycube {
 
 struct RelaxOptions {
   bool pad = false;  ///< put one layer of hexes under the boundary
-  double near_surface =
-      0;  ///< in the mesh's units; vertices farther off are brought back at any cost
-          ///< short of nearly flat hexes, the others while quality hardly suffers
+  /// In the mesh's units; vertices farther off are brought back at any cost short of nearly flat
+  /// hexes, the others while quality hardly suffers.
+  double near_surface = 0;
 };
 
 /// What the mesh is relaxed onto.

@@ -45,6 +45,16 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& t, const Vec3& p) {
   return weight;
 }
 
+std::array<Vec3, 4> barycentric_gradients(const std::array<Vec3, 4>& t) {
+  const double volume = tet_det(t);
+  std::array<Vec3, 4> gradients;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& f = kFacets[k];
+    gradients[k] = cross(t[f[2]] - t[f[0]], t[f[1]] - t[f[0]]) / volume;
+  }
+  return gradients;
+}
+
 TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
   Box3 box;
   for (const Vec3& p : mesh.positions) box.extend(p);

@@ -26,11 +26,11 @@ constexpr std::size_t kMemory = 8;
 // Column k of a Jacobian is the image of axis k.
 using Matrix = std::array<Vec3, 3>;
 
-// A tet with the gradients of its four barycentric coordinates in the object.
+// A tet with the gradients of its four barycentric coordinates in the shape it strives for.
 struct Element {
   std::array<VertId, 4> verts;
   std::array<Vec3, 4> gradient;
-  double weight = 1;  // volume in the object
+  double weight = 1;  // volume of that shape
 };
 
 using Positions = std::vector<Vec3>;
@@ -66,8 +66,7 @@ class Unfolder {
       if (!descend(context)) break;
     }
     if (least_det() > 0) epsilon_sq_ = 1e-6;
-    for (int round = 0; round < options_.num_polish_rounds && least_det() > 0; ++round)
-      if (!descend(context)) break;
+    if (options_.polishes && least_det() > 0) descend(context);
     std::size_t num_folded = 0;
     for (const Element& e : elements_) num_folded += det_of(jacobian(e, x_)) <= 0;
     return num_folded;
@@ -80,8 +79,7 @@ class Unfolder {
     return options_.reference ? options_.reference(t) : tet_corners(object, t);
   }
 
-  // Only tets with a free vertex count: the others are constants of the energy. The gradient of a
-  // barycentric coordinate is the area vector of the opposite facet over the volume.
+  // Only tets with a free vertex count: the others are constants of the energy.
   void add_element(const TetMesh& object, TetId t) {
     Element e{object.tets[t], {}, 1};
     if (std::none_of(e.verts.begin(), e.verts.end(), [&](VertId v) { return free_axes_[v] != 0; }))
@@ -91,11 +89,7 @@ class Unfolder {
     const double volume = tet_det(p);
     if (!(volume > 0)) return;
     e.weight = volume / 6;
-    constexpr std::size_t kOpposite[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto& o = kOpposite[k];
-      e.gradient[k] = cross(p[o[1]] - p[o[0]], p[o[2]] - p[o[0]]) / volume;
-    }
+    e.gradient = barycentric_gradients(p);
     elements_.push_back(e);
   }
 

@@ -25,8 +25,8 @@ struct UnfoldOptions {
   std::span<const Tie> ties;
   /// The shape a tet strives for, where it is not the object's: the same for a tet of any place.
   std::function<std::array<Vec3, 4>(TetId)> reference;
-  /// Descents of up to 60 steps once all tets are positive, towards even shapes and volumes.
-  int num_polish_rounds = 0;
+  /// One descent more once all tets are positive, towards even shapes and volumes.
+  bool polishes = false;
 };
 
 /// Moves vertices of `image` along their free axes (bit a of `free_axes`: axis a; 0 = fixed) until
