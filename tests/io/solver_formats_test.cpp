@@ -196,6 +196,19 @@ TEST(SolverFormats, APatchCalledAPointIsNoGroupOfCgns) {
   EXPECT_EQ(changed[0].written, "._2");
 }
 
+TEST(SolverFormats, AQuadThatIsNoFaceIsNamed) {
+  const TempFolder folder;
+  HexMesh mesh = test::box_hex_mesh(1, 1, 1);
+  mesh.labels.quads.push_back({{VertId(0), VertId(1), VertId(2), VertId(7)}, PatchId(0)});
+  try {
+    write_hex_mesh(folder / "a.exo", mesh);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("labelled quad 0 is no face"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(SolverFormats, EveryWriterLooksAtTheCallersFlag) {
   const HexMesh mesh = test::box_hex_mesh(12, 12, 12);
   const io::NodeTable nodes(mesh, 8);

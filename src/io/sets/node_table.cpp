@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 
@@ -53,13 +55,17 @@ VertId NodeTable::node_between(VertId a, VertId b) const {
   const EdgeId edge = edges_->find(a, b);
   if (edge.is_valid()) return edge_node(edge);
   throw Error(ErrorCode::BadArgument,
-              "a labelled edge is no edge of any hex; remove it from the labels");
+              fmt::format("the labelled edge from vertex {} to {} is no edge of any hex; remove it "
+                          "from the labels",
+                          a.value(), b.value()));
 }
 
 HexFace NodeTable::find_face(const std::array<VertId, 4>& verts) const {
   if (const auto found = faces_->find(verts)) return found->face;
   throw Error(ErrorCode::BadArgument,
-              "a labelled quad is no face of any hex; remove it from the labels");
+              fmt::format("the labelled quad of vertices {}, {}, {} and {} is no face of any hex; "
+                          "remove it from the labels",
+                          verts[0].value(), verts[1].value(), verts[2].value(), verts[3].value()));
 }
 
 NodeList NodeTable::quad(const std::array<VertId, 4>& verts) const {

@@ -177,7 +177,8 @@ std::vector<HexFace> find_quad_sides(const HexMesh& mesh) {
     const auto faces = find_quad_faces(mesh, vert_to_hex, quad.verts);
     if (faces.empty())
       throw Error(ErrorCode::BadArgument,
-                  "a labelled quad is no face of any hex; remove it from the labels");
+                  fmt::format("labelled quad {} is no face of any hex; remove it from the labels",
+                              sides.size()));
     sides.push_back(faces.front());
   }
   return sides;
