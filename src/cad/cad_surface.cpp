@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/name_pattern.h"
 
 #include "base/disjoint_sets.h"
 
@@ -110,7 +111,8 @@ bool meets(const CadFace& face, CadFaceId id, const PatchCondition& condition) {
       {"cone", CadSurfaceKind::Cone},   {"sphere", CadSurfaceKind::Sphere},
       {"torus", CadSurfaceKind::Torus}, {"spline", CadSurfaceKind::Spline}};
   if (condition.face_kind == "face")
-    return face.name == condition.face_name || default_face_name(id) == condition.face_name;
+    return matches_pattern(condition.face_name, face.name) ||
+           matches_pattern(condition.face_name, default_face_name(id));
   if (kKinds.at(condition.face_kind) != face.kind) return false;
   if (!(condition.value > 0)) return true;
   const double radius = face.kind == CadSurfaceKind::Torus ? face.minor : face.radius;

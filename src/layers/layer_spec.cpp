@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/name_pattern.h"
 
 namespace hexwright {
 namespace {
@@ -205,39 +205,6 @@ LayerSpec complete(const Given& given) {
   return spec;
 }
 
-bool matches_glob(std::string_view pattern, std::string_view name) {
-  std::size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') {
-      ++p;
-      ++n;
-    } else if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      resume = n;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      n = ++resume;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
-bool is_regular_expression(const std::string& pattern) {
-  return pattern.find_first_of("[](){}|+^$\\") != std::string::npos ||
-         pattern.find(".*") != std::string::npos;
-}
-
-std::regex make_regex(const std::string& pattern) {
-  try {
-    return std::regex(pattern, std::regex::ECMAScript);
-  } catch (const std::regex_error& error) {
-    refuse(fmt::format("the pattern '{}' is no regular expression: {}", pattern, error.what()));
-  }
-}
-
 }  // namespace
 
 double LayerSpec::total() const { return first.value * sum_of_powers(growth, count); }
@@ -254,13 +221,8 @@ LayerSpec parse_layer_spec(const std::string& text) {
   require_three(given);
   LayerSpec spec = complete(given);
   spec.pattern = text.substr(0, equals);
-  if (is_regular_expression(spec.pattern)) make_regex(spec.pattern);  // refused before the work
+  check_pattern(spec.pattern);
   return spec;
-}
-
-bool matches_pattern(const std::string& pattern, const std::string& name) {
-  if (matches_glob(pattern, name)) return true;
-  return is_regular_expression(pattern) && std::regex_match(name, make_regex(pattern));
 }
 
 }  // namespace hexwright

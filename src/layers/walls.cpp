@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/name_pattern.h"
 #include "hexwright/io/set_summary.h"
 #include "hexwright/io/set_table.h"
 

@@ -106,6 +106,46 @@ TEST(PatchRules, AFileNamesWhatLiesOnIt) {
   EXPECT_EQ(apply_patch_rules(test::unit_cube_surface(), std::array{rule}).num_matched[0], 2u);
 }
 
+// A prism of twelve sides about the z axis, closed by fans: neighbouring sides turn by 30 degrees.
+TriMesh twelve_sides() {
+  TriMesh prism;
+  constexpr int kSides = 12;
+  for (int k = 0; k < kSides; ++k)
+    for (double z : {0.0, 1.0}) {
+      const double t = 2 * std::numbers::pi * k / kSides;
+      prism.positions.push_back({std::cos(t), std::sin(t), z});
+    }
+  const VertId low = prism.positions.push_back({0, 0, 0}),
+               high = prism.positions.push_back({0, 0, 1});
+  for (int k = 0; k < kSides; ++k) {
+    const VertId a(2 * k), b(2 * ((k + 1) % kSides)), c(2 * k + 1), d(2 * ((k + 1) % kSides) + 1);
+    prism.tris.push_back({a, b, d});
+    prism.tris.push_back({a, d, c});
+    prism.tris.push_back({low, b, a});
+    prism.tris.push_back({high, c, d});
+  }
+  return prism;
+}
+
+TEST(PatchRules, AnAngleNamesWhatLiesBetweenSharpEdges) {
+  for (const TriMesh& cube : {test::unit_cube_surface(), cube_soup()})
+    for (const auto& [rule, matched] :
+         std::map<std::string, std::size_t>{{"side=angle:0,0.5,0.4", 2},
+                                            {"side=angle:9,0.5,0.4;89deg", 2},
+                                            {"side=angle:0,0.5,0.4;91", 12}})
+      EXPECT_EQ(apply(cube, {rule}).num_matched[0], matched) << rule;
+  const TriMesh prism = twelve_sides();
+  EXPECT_EQ(apply(prism, {"mantle=angle:1,0,0.5;31deg"}).num_matched[0], 24u);
+  EXPECT_EQ(apply(prism, {"mantle=angle:1,0.1,0.5;29deg"}).num_matched[0], 2u);
+  EXPECT_EQ(apply(prism, {"top=angle:0.1,0.2,1"}).num_matched[0], 12u);
+  TriMesh turned = prism;  // every second triangle looks the other way
+  for (TriId t : turned.tris.ids())
+    if (t.value() % 2 == 0) std::swap(turned.tris[t][0], turned.tris[t][1]);
+  EXPECT_EQ(apply(turned, {"mantle=angle:1,0,0.5;31deg"}).num_matched[0], 24u);
+  const RuledSurface both = apply(prism, {"half=angle:1,0,0.5;31deg&plane:z<0.5"});
+  EXPECT_NEAR(area_by_name(both.surface)["half"], 6 * 2 * std::sin(std::numbers::pi / 12), 1e-12);
+}
+
 TEST(PatchRules, OthersAreRefusedWithAnExample) {
   for (const char* text : {"",
                            "inlet",

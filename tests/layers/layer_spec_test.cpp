@@ -83,19 +83,5 @@ TEST(LayerSpec, WhatIsMissingOrUnknownIsNamed) {
   expect_refused("a(=first:1,growth:1.2,count:3", {"a(", "regular expression"});
 }
 
-TEST(LayerSpec, PatternsAreGlobsOrRegularExpressions) {
-  EXPECT_TRUE(matches_pattern("*", "anything"));
-  EXPECT_TRUE(matches_pattern("wall*", "wall.2"));
-  EXPECT_TRUE(matches_pattern("wall?", "wall1"));
-  EXPECT_FALSE(matches_pattern("wall", "wall.2"));
-  EXPECT_FALSE(matches_pattern("wall?", "wall12"));
-  EXPECT_TRUE(matches_pattern("*a*b*", "xxayybzz"));
-  EXPECT_TRUE(matches_pattern("wing|flap", "flap"));
-  EXPECT_TRUE(matches_pattern("wall[0-9]+", "wall12"));
-  EXPECT_FALSE(matches_pattern("wing|flap", "flaps"));
-  EXPECT_TRUE(matches_pattern("a.b", "a.b"));
-  EXPECT_FALSE(matches_pattern("a.b", "axb"));
-}
-
 }  // namespace
 }  // namespace hexwright

@@ -96,7 +96,7 @@ TEST(Sizes, PatchesAreRefinedByName) {
     cube.group.push_back(p[0].z + p[1].z + p[2].z == 30 ? 1 : 0);
   }
   MeshOptions options = with_size(2);
-  options.sizes.rules = {parse_size_rule("patch:to.=1")};
+  options.sizes.rules = {parse_size_rule("patch:to?=1")};
   const MeshResult r = mesh_surface(cube, options, {});
   expect_done(r);
   EXPECT_LE(high_edge_in(r.mesh, {{0, 0, 9}, {10, 10, 10}}), 1.1);

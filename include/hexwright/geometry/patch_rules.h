@@ -11,16 +11,16 @@ namespace hexwright {
 
 /// One condition; a point meets it where `signed_distance` is not positive.
 struct PatchCondition {
-  enum class Kind { HalfSpace, Plane, Box, Sphere, Cylinder, Normal, File, CadFace };
+  enum class Kind { HalfSpace, Plane, Box, Sphere, Cylinder, Normal, Angle, File, CadFace };
   Kind kind = Kind::HalfSpace;
   Vec3 a;  ///< half-space, plane: normal; box: low corner; sphere: centre; cylinder: a point
-           ///< of the axis; Normal: direction, unit
+           ///< of the axis; Normal: direction, unit; Angle: where the patch lies
   Vec3 b;  ///< box: high corner; cylinder: direction of the axis, unit
-  double value = 0;  ///< half-space, plane: offset along `a`; radius; Normal: least cosine
+  double value = 0;  ///< half-space, plane: offset along `a`; radius; Normal, Angle: least cosine
   std::string path;  ///< File: to be read into `surface` by the caller
   TriMesh surface;   ///< File: the triangles that are meant
   /// CadFace: "cylinder" and other kinds of surfaces, with `value` the radius where it is above 0;
-  /// or "face", with the name of one.
+  /// or "face", with a pattern of names (base/name_pattern.h).
   std::string face_kind, face_name;
   /// CadFace: groups of the surface that are such faces; filled by the caller (find_faces).
   std::vector<std::int32_t> groups;
@@ -38,6 +38,9 @@ struct PatchRule {
 ///   sphere:X,Y,Z,R                          inside a sphere
 ///   cylinder:X,Y,Z,AX,AY,AZ,R               within R of the axis through a point
 ///   normal:NX,NY,NZ;20deg                   faces this way, within an angle (default 1 degree)
+///   angle:X,Y,Z;30deg                       all that is reached from the triangle nearest to a
+///   point
+///                                           across edges that turn by less (default 30 degrees)
 ///   file:PATH                               lies on the surface of a file
 /// and of a CAD file's faces, by what they are:
 ///   cylinder:r=5   sphere:r=5   torus:r=2   (the small radius)   kind:cone   face:NAME

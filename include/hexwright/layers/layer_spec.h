@@ -21,7 +21,7 @@ struct LayerLength {
 /// `count` layers, the first of height `first` at the wall, each `growth` times as high as the one
 /// before.
 struct LayerSpec {
-  std::string pattern;  ///< of the names of patches
+  std::string pattern;  ///< of the names of patches (base/name_pattern.h)
   LayerLength first;
   double growth = 1;
   int count = 0;
@@ -38,9 +38,5 @@ constexpr double kMaxLayerGrowth = 5;
 /// Reads "PATTERN=first:H,growth:R,count:N" with any three of first, growth, count and total; four
 /// must agree. Errors: BadArgument, with the keys that are missing or contradict each other.
 LayerSpec parse_layer_spec(const std::string& text);
-
-/// Whether a patch of this name is meant. A pattern is a glob (`*` and `?`), or else a regular
-/// expression (ECMAScript); either is to match the whole name. Errors: BadArgument for a bad one.
-bool matches_pattern(const std::string& pattern, const std::string& name);
 
 }  // namespace hexwright

@@ -30,7 +30,7 @@ struct SizeRule {
   Where where = Where::Box;
   Vec3 a, b;            ///< Box: corners; Ball: centre; Cylinder: ends of the axis
   double radius = 0;    ///< Ball, Cylinder
-  std::string pattern;  ///< Patch, Curve: regular expression for whole names
+  std::string pattern;  ///< Patch, Curve: of whole names (base/name_pattern.h)
   std::shared_ptr<const TriMesh> surface;  ///< Near: the triangles that are meant
   Length size;
   Length distance;   ///< the size holds this far around the place
@@ -65,7 +65,7 @@ Length parse_length(const std::string& text);
 /// Reads WHERE=SIZE or WHERE=SIZE,DISTANCE, with lengths as above and WHERE one of
 ///   box:X0,Y0,Z0,X1,Y1,Z1   ball:X,Y,Z,R   cylinder:X0,Y0,Z0,X1,Y1,Z1,R
 ///   patch:NAME   curve:NAME   near:FILE
-/// NAME is a regular expression for the whole of a name. Files are read at once. Throws
+/// NAME is a pattern of names (base/name_pattern.h). Files are read at once. Throws
 /// Error{BadArgument} that says what is wrong and shows a right form, and what read_surface throws.
 SizeRule parse_size_rule(const std::string& text);
 

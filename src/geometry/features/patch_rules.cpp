@@ -10,7 +10,10 @@
 #include <optional>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/name_pattern.h"
 #include "hexwright/geometry/surface_tree.h"
+
+#include "geometry/features/angle_flood.h"
 
 namespace hexwright {
 namespace {
@@ -170,6 +173,8 @@ class Judge {
   Judge(const TriMesh& mesh, const PatchCondition& condition, double diagonal)
       : mesh_(mesh), condition_(condition), diagonal_(diagonal) {
     if (condition.kind == Kind::File) tree_.emplace(condition.surface);
+    if (condition.kind == Kind::Angle)
+      is_reached_ = flood_by_angle(mesh, condition.a, condition.value);
   }
 
   bool meets(TriId t) const {
@@ -196,6 +201,8 @@ class Judge {
       case Kind::CadFace:
         return !mesh_.group.empty() &&
                std::ranges::find(c.groups, mesh_.group[t]) != c.groups.end();
+      case Kind::Angle:
+        return is_reached_[t.index()] != 0;
       case Kind::Normal:
         return dot(normalized(cross(p[1] - p[0], p[2] - p[0])), c.a) >= c.value;
       default:
@@ -208,6 +215,7 @@ class Judge {
   const PatchCondition& condition_;
   double diagonal_;
   std::optional<SurfaceTree> tree_;
+  std::vector<char> is_reached_;  // of Angle
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
@@ -247,11 +255,12 @@ PatchCondition parse_plane(const std::string& text, const std::string& rule) {
   return c;
 }
 
-PatchCondition parse_normal(const std::string& text, const std::string& rule) {
+/// "X,Y,Z;20deg", three numbers and the cosine of an angle.
+PatchCondition parse_with_angle(Kind kind, const std::string& text, const std::string& rule) {
   PatchCondition c;
-  c.kind = Kind::Normal;
+  c.kind = kind;
   const auto semicolon = text.find(';');
-  double angle = 1;
+  double angle = kind == Kind::Normal ? 1 : 30;
   if (semicolon != std::string::npos) {
     std::string given = text.substr(semicolon + 1);
     if (given.ends_with("deg")) given.resize(given.size() - 3);
@@ -260,8 +269,10 @@ PatchCondition parse_normal(const std::string& text, const std::string& rule) {
     angle = (*parsed)[0];
   }
   const auto n = parse_numbers(text.substr(0, semicolon), 3);
-  if (!n || (c.a = normalized({(*n)[0], (*n)[1], (*n)[2]})) == Vec3{})
+  if (n) c.a = {(*n)[0], (*n)[1], (*n)[2]};
+  if (kind == Kind::Normal && (c.a = normalized(c.a)) == Vec3{})
     refuse(rule, "has no direction of three numbers");
+  if (!n) refuse(rule, "has no point of three numbers");
   c.value = std::cos(angle * std::numbers::pi / 180);
   return c;
 }
@@ -302,6 +313,7 @@ std::optional<PatchCondition> parse_cad_face(const std::string& kind, const std:
   c.face_kind = kind;
   if (kind == "face") {
     if (value.empty()) refuse(rule, "names no face");
+    check_pattern(value);
     c.face_name = value;
     return c;
   }
@@ -325,12 +337,14 @@ PatchCondition parse_condition(const std::string& text, const std::string& rule)
   const std::string value = colon == std::string::npos ? "" : text.substr(colon + 1);
   if (auto face = parse_cad_face(kind, value, rule)) return *face;
   if (kind == "plane") return parse_plane(value, rule);
-  if (kind == "normal") return parse_normal(value, rule);
+  if (kind == "normal") return parse_with_angle(Kind::Normal, value, rule);
+  if (kind == "angle") return parse_with_angle(Kind::Angle, value, rule);
   if (kind == "box") return parse_box(value, rule);
   if (kind == "sphere") return parse_round(Kind::Sphere, value, rule);
   if (kind == "cylinder") return parse_round(Kind::Cylinder, value, rule);
   if (kind != "file" || value.empty())
-    refuse(rule, "is of no known kind: plane, box, sphere, cylinder, normal, file, face or kind");
+    refuse(rule,
+           "is of no known kind: plane, box, sphere, cylinder, normal, angle, file, face or kind");
   PatchCondition c;
   c.kind = Kind::File;
   c.path = value;

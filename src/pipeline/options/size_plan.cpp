@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <regex>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/name_pattern.h"
 #include "hexwright/geometry/shape_diameter.h"
 #include "hexwright/geometry/surface_names.h"
 
@@ -54,9 +54,8 @@ double distance_to_cylinder(const SizeRule& rule, const Vec3& p) {
 /// Names that a pattern fits, as flags; refuses a pattern that fits none.
 std::vector<char> match_names(const SizeRule& rule, const std::vector<std::string>& names,
                               const char* what) {
-  const std::regex pattern(rule.pattern);
   std::vector<char> fits;
-  for (const std::string& name : names) fits.push_back(std::regex_match(name, pattern));
+  for (const std::string& name : names) fits.push_back(matches_pattern(rule.pattern, name));
   if (std::find(fits.begin(), fits.end(), 1) != fits.end()) return fits;
   std::vector<std::string> known;
   for (const std::string& name : names)

@@ -4,13 +4,13 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/name_pattern.h"
 #include "hexwright/io/surface_io.h"
 
 #include "io/text/file_bytes.h"
@@ -97,14 +97,6 @@ void set_place(const Form& form, const std::string& place, SizeRule& rule) {
         refuse(fmt::format("the box '{}' ends before it begins; write {}", place, form.example));
   if (rule.where != SizeRule::Where::Box && !(rule.radius > 0))
     refuse(fmt::format("the radius in '{}' must be positive", place));
-}
-
-void check_pattern(const SizeRule& rule) {
-  try {
-    const std::regex pattern(rule.pattern);
-  } catch (const std::regex_error& error) {
-    refuse(fmt::format("'{}' is no regular expression: {}", rule.pattern, error.what()));
-  }
 }
 
 Margin parse_one_margin(const std::string& text) {
@@ -218,7 +210,7 @@ SizeRule parse_size_rule(const std::string& text) {
   if (rule.where == SizeRule::Where::Near)
     rule.surface = std::make_shared<const TriMesh>(read_surface(rule.pattern).mesh);
   else if (!rule.pattern.empty())
-    check_pattern(rule);
+    check_pattern(rule.pattern);
   return rule;
 }
 
