@@ -12,6 +12,7 @@
 
 #include "fit/fit_helpers.h"
 #include "geometry/tree/triangle_contacts.h"
+#include "mesh/tri_measures.h"
 #include "solids.h"
 
 namespace hexwright {
@@ -128,6 +129,38 @@ TEST(UniteParts, CrossingBoxesBecomeOne) {
   ASSERT_EQ(p.diagnosis.notes.size(), 1u);
   EXPECT_EQ(p.diagnosis.notes[0], "2 parts that overlap or touch united into 1");
   EXPECT_TRUE(p.diagnosis.warnings.empty());
+}
+
+/// Two blocks on each other, of which the upper one's lower face leans into the lower one at one
+/// side and leaves a gap at the other.
+TriMesh leaning_blocks(double gap) {
+  TriMesh upper = box_surface({0, 0, 4}, {10, 10, 8});
+  for (Vec3& p : upper.positions)
+    if (p.z == 4) p.z += gap * (p.x / 8 - 0.25);
+  return joined({box_surface({0, 0, 0}, {10, 10, 4}), upper});
+}
+
+TEST(UniteParts, GapsOfWallsThatNearlyCoincideAreClosed) {
+  const double diagonal = norm(Vec3{10, 10, 8});
+  for (const double gap : {0.2, 0.7, 20.0}) {
+    const double widest = gap * 1e-3 * diagonal;
+    const TriMesh input = leaning_blocks(widest);
+    for (const double min_gap : {0.0, 1e-3}) {
+      const PreparedSurface p = prepare_surface(input, {.min_gap = min_gap}, {});
+      const bool is_closed = gap * 1e-3 < min_gap;
+      EXPECT_EQ(p.diagnosis.num_gaps_closed, is_closed ? 1u : 0u) << gap << " " << min_gap;
+      const SurfaceTopology topology = compute_topology(p.mesh);
+      EXPECT_TRUE(topology.is_closed_manifold());
+      EXPECT_EQ(topology.num_components, 1u);
+      EXPECT_EQ(topology.genus(), 0);
+      EXPECT_NEAR(enclosed_volume(p.mesh), 800 - (is_closed ? 0 : 40 * widest), 0.05);
+      EXPECT_NEAR(total_area(p.mesh), 2 * 100 + 4 * 80 + (is_closed ? 0 : 160), 10);
+      const auto& said = p.diagnosis.warnings;
+      EXPECT_EQ(std::ranges::any_of(
+                    said, [](const std::string& w) { return w.find("nearly coincide") != w.npos; }),
+                is_closed);
+    }
+  }
 }
 
 TEST(UniteParts, EveryTriangleKeepsItsNameAndPlane) {

@@ -22,6 +22,9 @@ struct PrepareOptions {
   /// Components no longer than this in any direction are left out, with a warning, and voids
   /// inside the solid are filled: a share of the diagonal.
   double min_part = 0;
+  /// Where solids that overlap or touch nearly coincide elsewhere, gaps between them that are
+  /// narrower are closed: a share of the diagonal.
+  double min_gap = 0;
 };
 
 /// What was found and changed. Counts are of the input.
@@ -37,6 +40,7 @@ struct SurfaceDiagnosis {
   std::size_t num_hidden_parts = 0;  ///< dropped: walls and shells inside the solid
   std::size_t num_united_parts = 0;  ///< solids that overlapped or touched another
   std::size_t num_unions = 0;        ///< solids that they were united into
+  std::size_t num_gaps_closed = 0;   ///< unions with gaps narrower than PrepareOptions::min_gap
   std::size_t num_small_parts = 0;   ///< left out by PrepareOptions::min_part
   std::size_t num_small_voids = 0;   ///< filled by it
   bool is_flipped_whole = false;     ///< the surface pointed inwards and was turned as a whole

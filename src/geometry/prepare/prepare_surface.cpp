@@ -223,6 +223,10 @@ void describe_union(const UniteReport& united, SurfaceDiagnosis& diagnosis) {
     diagnosis.notes.push_back(std::to_string(united.num_parts) +
                               " parts that overlap or touch united into " +
                               std::to_string(united.num_results));
+  if (united.num_closed > 0)
+    diagnosis.warnings.push_back(
+        "gaps between parts that nearly coincide are closed, as far as they are narrower than "
+        "a fifth of the tolerance; --parts as-is keeps all walls");
   if (united.num_apart > 0)
     diagnosis.notes.push_back(std::to_string(united.num_apart) +
                               " parts that touch along edges or in points kept apart there");
@@ -285,9 +289,12 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
   diagnosis.is_flipped_whole = orientation.num_turned_parts == orientation.num_parts;
   close_holes(work, diagnosis);
   context.check_cancelled();
-  const UniteReport united = unite_parts(work, options.parts, input.group);
+  const double unit_diagonal = bounding_box(work.mesh).diagonal();
+  const UniteReport united =
+      unite_parts(work, options.parts, options.min_gap * unit_diagonal, input.group);
   diagnosis.num_united_parts = united.num_parts;
   diagnosis.num_unions = united.num_results;
+  diagnosis.num_gaps_closed = united.num_closed;
   diagnosis.num_duplicate_tris += remove_duplicate_tris(work);
   const bool had_slits = close_slits(work, options.parts);
   const std::vector<SmallPart> small =

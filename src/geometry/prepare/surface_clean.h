@@ -48,13 +48,15 @@ struct UniteReport {
   std::size_t num_parts = 0;    ///< solids that were united with another
   std::size_t num_results = 0;  ///< what they became
   std::size_t num_apart = 0;    ///< solids that touch along edges or in points, and stay as many
+  std::size_t num_closed = 0;   ///< results in which gaps were closed
   std::size_t num_failed = 0;   ///< solids that stay as they are: their union could not be made
 };
 
 /// Puts the surface of their union in the place of solids that overlap or touch. A solid is a
 /// closed, consistently oriented piece with the cavities in it. The surface must be oriented.
 /// `groups` are those of the input's triangles, or none: triangles of different ones stay apart.
-UniteReport unite_parts(WorkingSurface& surface, Parts parts,
+/// Gaps narrower than `min_gap` (unit frame) are closed where much of a union consists of them.
+UniteReport unite_parts(WorkingSurface& surface, Parts parts, double min_gap,
                         const IdVector<TriId, std::int32_t>& groups);
 
 /// Closes slits without width: walls that lie on each other wholly, whatever their triangles, go.

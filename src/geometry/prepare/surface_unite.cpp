@@ -2,6 +2,7 @@
 // the object, and the curves in which parts meet are its edges.
 #include <algorithm>
 
+#include "geometry/prepare/narrow_gaps.h"
 #include "geometry/prepare/surface_clean.h"
 #include "geometry/prepare/unite_solids.h"
 #include "geometry/topology/bodies.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr double kContact = 1e-6;
 /// Edges shorter than this may be collapsed in a union.
 constexpr double kTolerance = 1e-9;
+/// Share of a union's area above which the walls of slits in it are no accident of shape.
+constexpr double kManySlits = 0.002;
 
 /// All bodies as one surface, and the body of each triangle.
 struct Assembly {
@@ -136,9 +139,26 @@ void replace(WorkingSurface& surface, const std::vector<ClosedPiece>& bodies,
   }
 }
 
+/// A union, and whether gaps in it were closed.
+struct Union {
+  UnitedSurface surface;
+  bool has_closed_gaps = false;
+};
+
+Union unite(const std::vector<Solid>& solids, double min_gap) {
+  Union result = {unite_solids(solids, kTolerance)};
+  if (result.surface.mesh.num_tris() == 0 || !(min_gap > 0)) return result;
+  const double slits = measure_slits(result.surface.mesh, min_gap);
+  if (slits < kManySlits) return result;
+  UnitedSurface closed = unite_closing_gaps(solids, min_gap);
+  if (closed.mesh.num_tris() == 0 || measure_slits(closed.mesh, min_gap) >= slits / 2)
+    return result;
+  return {std::move(closed), true};
+}
+
 }  // namespace
 
-UniteReport unite_parts(WorkingSurface& surface, Parts parts,
+UniteReport unite_parts(WorkingSurface& surface, Parts parts, double min_gap,
                         const IdVector<TriId, std::int32_t>& groups) {
   UniteReport report;
   if (parts == Parts::AsIs) return report;
@@ -148,7 +168,7 @@ UniteReport unite_parts(WorkingSurface& surface, Parts parts,
     std::vector<Solid> solids;
     for (std::size_t b : cluster)
       solids.push_back({bodies[b].mesh, find_faces(bodies[b], surface, groups)});
-    const UnitedSurface united = unite_solids(solids, kTolerance);
+    const auto [united, has_closed_gaps] = unite(solids, min_gap);
     if (united.mesh.num_tris() == 0) {
       report.num_failed += cluster.size();
       continue;
@@ -162,6 +182,7 @@ UniteReport unite_parts(WorkingSurface& surface, Parts parts,
       continue;
     }
     report.num_parts += cluster.size();
+    report.num_closed += has_closed_gaps;
     report.num_results += num_results;
   }
   if (report.num_parts + report.num_apart > 0) surface.keep(is_kept);

@@ -94,12 +94,17 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   return plan;
 }
 
+/// Narrower gaps between parts that nearly coincide are closed.
+constexpr double kGapOfTolerance = 0.2;
+
 TargetOptions plan_target(const MeshOptions& wishes) {
   TargetOptions target = wishes.target;
   if (wishes.fit.carve.side != Side::Inside) target.placement = Placement::AsGiven;
   if (target.prepare.min_part < 0)  // what no cell could resolve is no part
     target.prepare.min_part =
         wishes.sizing.sizing == Sizing::Deviation ? wishes.sizing.tolerance : 0.0;
+  if (wishes.sizing.sizing == Sizing::Deviation)
+    target.prepare.min_gap = kGapOfTolerance * wishes.sizing.tolerance;
   return target;
 }
 

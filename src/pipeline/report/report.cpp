@@ -46,6 +46,7 @@ Json describe_options(const MeshOptions& o) {
   const TargetOptions target = plan_target(o);
   return {{"parts", name_of(kPartsNames, target.prepare.parts)},
           {"min_part", target.prepare.min_part},
+          {"min_gap", target.prepare.min_gap},
           {"gap", o.gap},
           {"sizing", name_of(kSizingNames, o.sizing.sizing)},
           {"tolerance", o.sizing.tolerance},
@@ -87,6 +88,7 @@ Json describe_surface(const SurfaceDiagnosis& s) {
           {"was_inside_out", s.is_flipped_whole},
           {"united_parts", s.num_united_parts},
           {"unions", s.num_unions},
+          {"gaps_closed", s.num_gaps_closed},
           {"small_parts_left_out", s.num_small_parts},
           {"small_voids_filled", s.num_small_voids},
           {"notes", s.notes}};
