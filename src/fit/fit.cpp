@@ -6,7 +6,6 @@
 #include "hexwright/fit/fit.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -24,6 +23,7 @@
 #include "fit/sheets/failed.h"
 #include "fit/sheets/pad_boundary.h"
 #include "fit/sheets/squeezed.h"
+#include "fit/unlifted.h"
 #include "relax/joint/lift.h"
 #include "relax/passes/finish.h"
 #include "relax/passes/pass.h"
@@ -55,8 +55,7 @@ constexpr double kCostlyFloor = 0.4;  // the joint lift does not start from less
 // Corners are single points that users look for: they are to be met within this share of the
 // surface's diagonal, a little less than what the judge allows.
 constexpr double kCornerMiss = 0.00045;
-constexpr double kLittleLower = 0.95;  // of the least, for a lift of all the others
-constexpr double kMiss = 0.02;         // distance from the target, in h, that is reported
+constexpr double kMiss = 0.02;  // distance from the target, in h, that is reported
 
 // The first hex with a corner determinant that is not positive.
 HexId find_inverted(const HexMesh& mesh) {
@@ -98,19 +97,6 @@ struct Attempt {
 };
 
 }  // namespace
-
-struct Quality {
-  double least = 0;      // scaled Jacobian
-  double shortfall = 0;  // the sum of (goal - scaled Jacobian)^2 over hexes below the lift's goal
-};
-
-// What the lift is measured by, and gone back to where it leads no higher.
-struct Unlifted {
-  IdVector<VertId, Vec3> positions;
-  IdVector<VertId, double> arc, offset;
-  Quality quality;
-  std::vector<HexId> unproven;
-};
 
 /// What the last passes start from: everything has arrived, nothing has been given away yet.
 struct FitMemory {
@@ -177,11 +163,9 @@ class Fitter {
     std::shared_ptr<FitMemory> memory;
     if (is_lifting()) memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
-    const Quality quality = measure_quality(result);
-    const bool is_poor = is_lifting() && quality.least < options_.lift_goal;
-    if (is_poor)
-      memory->unlifted = {result.state.mesh.positions, result.state.arc, result.state.offset,
-                          quality, report_.unproven};
+    Unlifted unlifted(result.state, report_.unproven, options_.lift_goal);
+    const bool is_poor = is_lifting() && unlifted.least() < options_.lift_goal;
+    if (is_poor) memory->unlifted = std::move(unlifted);
     FitResult done = conclude(std::move(result));
     if (is_poor) done.memory = std::move(memory);
     return done;
@@ -226,17 +210,10 @@ class Fitter {
     clock_.run("prove", 0.985, [&] { prove(a); });
   }
 
-  // The lift starts before the last passes of a fit without it, some of which may have gained more.
-  // A least that is a little lower is no loss where all the others rise.
   void go_back_if_lower(Attempt& a, const Unlifted& unlifted) {
-    const Quality quality = measure_quality(a), before = unlifted.quality;
-    const bool is_higher = quality.shortfall < before.shortfall;
-    if (quality.least >= (is_higher ? kLittleLower : 1) * before.least) return;
-    if (report_.unproven.size() < unlifted.unproven.size()) return;
-    a.state.mesh.positions = unlifted.positions;
-    a.state.arc = unlifted.arc;
-    a.state.offset = unlifted.offset;
-    report_.unproven = unlifted.unproven;
+    if (!unlifted.is_better_than(a.state, report_.unproven.size())) return;
+    unlifted.restore(a.state);
+    report_.unproven = unlifted.unproven();
     update_targets(a.state, target(a), 0);
   }
 
@@ -377,16 +354,9 @@ class Fitter {
     relax::lift_jointly(a.state, target(a), {tolerance, options_.lift_goal, is_last}, context_);
   }
 
-  double least_quality(const Attempt& a) const { return measure_quality(a).least; }
-
-  Quality measure_quality(const Attempt& a) const {
-    Quality result = {.least = std::numeric_limits<double>::infinity()};
-    for (const double quality : compute_scaled_jacobians(a.state.mesh)) {
-      result.least = std::min(result.least, quality);
-      const double shortfall = std::max(0.0, options_.lift_goal - quality);
-      result.shortfall += shortfall * shortfall;
-    }
-    return result;
+  double least_quality(const Attempt& a) const {
+    const auto quality = compute_scaled_jacobians(a.state.mesh);
+    return *std::min_element(quality.begin(), quality.end());
   }
 
   // The average, as far as the least allows; the best offsets follow the sliding vertices.
