@@ -97,7 +97,7 @@ void run(const MeshCommand& cmd, Program& program) {
       write_view(cmd.view, result, surface, std::filesystem::path(cmd.output).filename().string());
   }
   if (!cmd.grid.empty()) write_grid(cmd.grid, result.grid);
-  if (!cmd.report.empty()) write_file_atomically(cmd.report, report_to_json(result, options, info));
+  if (!cmd.report.empty()) write_file_atomically(cmd.report, report_to_json(result, info));
   if (result.mesh.num_hexes() > 0) print_summary(cmd, result, program.console);
   for (const std::string& f : result.failures) program.console.fail(cmd.input + ": " + f);
   program.exit_code = result.failures.empty() ? Valid : FailsGate;

@@ -27,6 +27,7 @@ std::string type_name(const NamedOption& row) {
       return "SHARE";
     case OptionKind::Length:
       return "LENGTH or SHARE";
+    case OptionKind::File:
     case OptionKind::Text:
     case OptionKind::List:
       return row.allowed;

@@ -61,11 +61,11 @@ def cell_labels(path):
 class Mesh:
     def __init__(self, folder):
         self.points = vectors(body(folder / "points"))
-        self.faces = [list(map(int, m.split())) for m in re.findall(r"4\s*\(([^)]*)\)", body(folder / "faces"))]
+        self.faces = [list(map(int, m.split())) for m in re.findall(r"(?<!\d)4\(([\d\s]+)\)", body(folder / "faces"))]
         owner, neighbour = cell_labels(folder / "owner"), cell_labels(folder / "neighbour")
         self.patches = {m[0]: (int(m[1]), int(m[2])) for m in
                         re.findall(r"([\w.]+)\s*\{[^}]*?nFaces\s+(\d+);[^}]*?startFace\s+(\d+);", body(folder / "boundary"))}
-        corners = [set() for _ in range(max(owner) + 1)]
+        corners = [set() for _ in range(max(owner + neighbour) + 1)]
         for face, cell in list(zip(self.faces, owner)) + list(zip(self.faces, neighbour)):
             corners[cell].update(face)
         self.centers = [tuple(sum(self.points[i][k] for i in c) / len(c) for k in range(3)) for c in corners]

@@ -169,7 +169,10 @@ SPAN = {"wing, outside": 1, "edge of 20 degrees, outside": 1}  # heights are mea
 
 
 def make(shape, path):
-    verts, groups = SHAPES[shape]()
+    write_obj(*SHAPES[shape](), path)
+
+
+def write_obj(verts, groups, path):
     lines = ["v %.12g %.12g %.12g" % v for v in verts]
     for name, faces in groups.items():
         lines += [f"g {name}"] + ["f %d %d %d" % tuple(i + 1 for i in f) for f in faces]

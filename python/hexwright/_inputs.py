@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -14,6 +14,9 @@ from ._errors import BadInput
 #: A path, a pair of arrays, a Surface, or an object with vertices and faces (trimesh) or points and faces (pyvista).
 SurfaceLike = Any
 PathLike = Union[str, "os.PathLike[str]"]
+#: A file; a function of places, shape (n, 3), that gives sizes, shape (n,); one size per vertex or face; points and their
+#: sizes; or a lattice of sizes and its box.
+Sizes = Union[PathLike, Callable[[NDArray[np.float64]], ArrayLike], ArrayLike, "tuple[ArrayLike, ArrayLike]"]
 #: Faces by name.
 Patches = Mapping[str, ArrayLike]  # rules are strings, which ArrayLike has too
 

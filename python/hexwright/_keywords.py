@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypedDict
 
+from ._inputs import Sizes
+
 
 class MeshOptions(TypedDict, total=False):
     """Options of ``hexwright mesh``."""
@@ -19,6 +21,8 @@ class MeshOptions(TypedDict, total=False):
     """No cell is deeper. Default: 9."""
     max_cells: int
     """Stop refining, at a whole level, before the grid has more cells. Default: 2000000."""
+    unit: Literal["um", "mm", "cm", "km", "in", "ft", "m"]
+    """The surface's unit, for lengths with a unit such as 2mm; of CAD files it is mm. Default: none."""
     size: float | str
     """Edge of the cells, everywhere: no longer, and at most one level finer. Around an object that of the cells at its surface. Default: none."""
     max_size: float | str
@@ -33,12 +37,12 @@ class MeshOptions(TypedDict, total=False):
     """At least so many cells across the thickness of the solid, or of gaps outside; 0 = as the tolerance asks. Default: 0."""
     cells: int
     """Find the size that gives about so many hexes; 0 = not. Default: 0."""
-    sizes: str | Sequence[float]
-    """A file of sizes: the options above and 'box' or 'margin', by name. Default: none."""
     box: str | Sequence[float]
-    """The domain around the object. Default: none."""
+    """The domain, which the object lies in or reaches through: it is cut there. Default: none."""
     margin: str | Sequence[float]
     """Room around the object instead, on all sides, per axis or per side: lengths, or 5L for five times its longest side. Default: none."""
+    sizes: Sizes
+    """A file of sizes: the options from 'unit' to 'margin', by name. Default: none."""
     placement: Literal["as-given", "faces"]
     """The lattice along the part's faces, however they are turned (inside only), or along the given axes. Default: faces."""
     parts: Literal["as-is", "separate", "unite"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import difflib
 import operator
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from . import _core
@@ -19,7 +19,7 @@ class Option(NamedTuple):
     """One option of a stage."""
 
     name: str  #: keyword in Python; with hyphens for underscores, and two before, that of the command line
-    kind: str  #: flag, whole, number, share (of the diagonal), length, degrees, choice, text or list
+    kind: str  #: flag, whole, number, share (of the diagonal), length, degrees, choice, file, text or list
     allowed: str  #: the range, or the names with ``|`` between them
     default: str
     help: str
@@ -47,7 +47,11 @@ def options(stage: str) -> list[Option]:
 
 
 def to_call(
-    stage: str, given: Mapping[str, Any], progress: Progress | None = None, threads: int | None = None
+    stage: str,
+    given: Mapping[str, Any],
+    progress: Progress | None = None,
+    threads: int | None = None,
+    sizes: Sequence[_core.SizeRule] = (),
 ) -> _core.Call:
     """What the compiled stages are called with. An unknown keyword is a TypeError, as of any function."""
     known = [option.name for option in options(stage)]
@@ -61,7 +65,7 @@ def to_call(
             texts[name.replace("_", "-")] = _to_text(name, value)
     if progress is not None and not callable(progress):
         raise TypeError("progress must be a function of a stage's name and a fraction from 0 to 1")
-    return _core.Call(texts, progress, _to_threads(threads))
+    return _core.Call(texts, progress, _to_threads(threads), list(sizes))
 
 
 def _to_text(name: str, value: Any) -> str:

@@ -16,6 +16,7 @@ from ._grid import Grid, as_grid
 from ._inputs import Patches, SurfaceLike, as_edges, as_surface, as_tets, tell_unmatched
 from ._mesh import HexMesh, InvalidMesh, as_mesh
 from ._options import Progress, to_call
+from ._sizes import size_rules, take_sizes
 from ._verdict import Verdict, judge
 
 if TYPE_CHECKING:
@@ -80,7 +81,13 @@ def mesh(
     **options
         Those of ``hexwright mesh``, with underscores for hyphens: see ``hexwright.options`` and the command line's
         page. The most used: ``tolerance``, the distance goal as a share of the bounding box's diagonal (0.005 or
-        ``"0.5%"``); ``max_level``; ``side``; ``feature_angle`` in degrees.
+        ``"0.5%"``); ``size``, the edge of the cells; ``max_level``; ``side``; ``feature_angle`` in degrees. ``sizes``
+        takes more than the command line's file: a function of places, shape (n, 3) in the surface's coordinates, that
+        gives the largest edge of cells at each, shape (n,), infinity where nothing is asked for; an array of one size per
+        vertex or per face of the surface, which holds for cells at the surface; ``(points, sizes)``; or ``(values, box)``,
+        an array of three axes whose outer values lie on the sides of the box x0, y0, z0, x1, y1, z1. A function is called
+        with 27 places of each cell that is looked at, from the library's threads and one at a time; what it raises is
+        raised here.
 
     Returns
     -------
@@ -103,19 +110,24 @@ def mesh(
     >>> m.valid, len(m.patches), len(m.curves), len(m.corners)
     (True, 6, 12, 8)
     """
-    call = to_call("mesh", options, progress, threads)
+    sizes, texts = take_sizes(options)
+
+    def call(core: _core.Surface | None) -> _core.Call:
+        # In no variable: what a function of sizes raises would hold on to it, and it to the function.
+        return to_call("mesh", texts, progress, threads, size_rules(sizes, core))
+
     said: list[str] = []
     if faces is None and is_cad(surface):
         if features is not None:
             raise BadInput("features: a CAD part brings its own; tangent_edges=True adds the smooth edges")
         rules = to_rules(patches)
         with cad_file(surface) as path:
-            core, grid, text, layer, matched, read = _core.mesh_cad(path, rules, call)
+            core, grid, text, layer, matched, read = _core.mesh_cad(path, rules, call(None))
         said = read + tell_unmatched(patches or {}, matched)
     else:
         given = as_surface(surface, faces, patches)
         said = given.warnings
-        core, grid, text, layer = _core.mesh(given._core, as_edges(features), call)
+        core, grid, text, layer = _core.mesh(given._core, as_edges(features), call(given._core))
     report = json.loads(text)
     result = HexMesh._wrap(core, report, said + report["warnings"], report["failures"])
     result.grid = Grid._wrap(grid)

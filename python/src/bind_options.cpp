@@ -31,6 +31,8 @@ const char* kind_name(OptionKind kind) {
       return "length";
     case OptionKind::Degrees:
       return "degrees";
+    case OptionKind::File:
+      return "file";
     case OptionKind::Text:
       return "text";
     case OptionKind::List:

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
@@ -27,6 +28,7 @@
 #include "binders.h"
 #include "option_dict.h"
 #include "run_stage.h"
+#include "size_field.h"
 
 namespace hexwright::python {
 namespace {
@@ -38,6 +40,7 @@ using Warnings = std::vector<std::string>;
 struct Call {
   OptionDict options;
   RunSettings run;
+  std::vector<SizeRule> fields = {};  ///< sizes that are no text
 };
 
 template <class Options>
@@ -53,6 +56,14 @@ auto run_for(const Call& call, Work&& work) {
   std::pair<std::invoke_result_t<Work, const Context&>, Warnings> done;
   done.second = run_stage(call.run, [&](const Context& context) { done.first = work(context); });
   return done;
+}
+
+/// Sizes from Python beside those in words.
+MeshOptions read_mesh_options(const Call& call) {
+  auto options = read_options<MeshOptions>(call);
+  auto& rules = options.sizes.rules;
+  rules.insert(rules.end(), call.fields.begin(), call.fields.end());
+  return options;
 }
 
 /// Pairs of vertices of the surface become segments, which stay right when it is cleaned.
@@ -71,13 +82,13 @@ nb::object give_layer(MeshResult& result) {
 }
 
 nb::tuple mesh(const TriMesh& surface, const std::optional<AnyArray>& features, const Call& call) {
-  auto options = read_options<MeshOptions>(call);
+  auto options = read_mesh_options(call);
   add_features(surface, features, options.target.features);
   MeshResult result;
   std::string report;
   run_stage(call.run, [&](const Context& context) {
     result = mesh_surface(surface, options, context);
-    report = report_to_json(result, options, {"", "", num_threads(), {}});
+    report = report_to_json(result, {"", "", num_threads(), {}});
   });
   nb::object layer = give_layer(result);
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, layer);
@@ -98,7 +109,7 @@ CadInput read_cad_input(const std::string& path, const std::vector<std::string>&
 /// The file's own warnings are the last.
 nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>& rules,
                         const Call& call) {
-  const auto options = read_options<MeshOptions>(call);
+  const auto options = read_mesh_options(call);
   MeshResult result;
   std::string report;
   CadInput input;
@@ -106,7 +117,7 @@ nb::tuple mesh_cad_file(const std::string& path, const std::vector<std::string>&
     input = read_cad_input(path, rules, options);
     result = mesh_cad(input, options, context);
     report = report_to_json(
-        result, options, {path, "", num_threads(), {}, summarize_cad(input.model, input.surface)});
+        result, {path, "", num_threads(), {}, summarize_cad(input.model, input.surface)});
   });
   nb::object layer = give_layer(result);
   return nb::make_tuple(std::move(result.mesh), std::move(result.grid), report, layer,
@@ -259,13 +270,19 @@ std::string evaluate(const TriMesh& surface, const Call& call) {
 }  // namespace
 
 void bind_stages(nb::module_& module) {
+  nb::class_<SizeRule>(module, "SizeRule", "Sizes of cells that are given in numbers.");
+  module.def("function_rule", &function_rule, "function"_a);
+  module.def("points_rule", &points_rule, "points"_a, "sizes"_a);
+  module.def("lattice_rule", &lattice_rule, "values"_a, "counts"_a, "box"_a);
+  module.def("surface_rule", &surface_rule, "surface"_a, "sizes"_a);
   nb::class_<Call>(module, "Call", "What every stage is called with besides its inputs.")
       .def(
           "__init__",
-          [](Call* self, const OptionDict& options, const nb::object& progress, int threads) {
-            new (self) Call{options, {progress, threads}};
+          [](Call* self, const OptionDict& options, const nb::object& progress, int threads,
+             const std::vector<SizeRule>& fields) {
+            new (self) Call{options, {progress, threads}, fields};
           },
-          "options"_a, "progress"_a.none(), "threads"_a);
+          "options"_a, "progress"_a.none(), "threads"_a, "fields"_a);
   module.def(
       "is_cad_file", [](const std::string& path) { return is_cad_file(path); }, "path"_a);
   module.def("can_read_cad", &can_read_cad);

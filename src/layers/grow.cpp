@@ -53,7 +53,8 @@ class Grower {
         is_sheet_(state_.num_verts(), 0),
         is_inside_(state_.num_verts(), 1) {}
 
-  void run() {
+  /// Vertices of walls at layers that are not positive in the end.
+  std::vector<VertId> run() {
     slides_ = hold_boundary(state_);
     for (const SheetVert& vert : sheet_.verts) fix(vert.wall);
     keep_offsets();
@@ -69,8 +70,9 @@ class Grower {
     settle_sliding();
     smooth_inside();
     copy_back();
-    thin_until_valid();
+    const std::vector<VertId> inverted = thin_until_valid();
     find_reasons();
+    return inverted;
   }
 
  private:
@@ -303,10 +305,12 @@ class Grower {
 
   void copy_back() { sheet_.mesh.positions = state_.mesh.positions; }
 
-  /// The last word: straight towards the wall until all layers are positive.
-  void thin_until_valid() {
+  /// The last word: straight towards the wall until all layers are positive, as those are whose
+  /// hex becomes a prism over its wall quad. Where neighbours that stay forbid that: the wall's
+  /// vertices there.
+  std::vector<VertId> thin_until_valid() {
     constexpr int kMaxHalvings = 40;
-    for (int round = 0; round < kMaxHalvings; ++round) {
+    for (int round = 0;; ++round) {
       const std::vector<double> quality = measure_quality();
       std::vector<char> is_bad(state_.num_verts(), 0);
       bool any = false;
@@ -316,10 +320,18 @@ class Grower {
         for (std::size_t k = 0; k < 4; ++k)
           is_bad[sheet_.mesh.hexes[sheet_.hexes[i].hex][k].index()] = 1;
       }
-      if (!any) return;
+      if (!any) return {};
+      if (round == kMaxHalvings) return walls_under(is_bad);
       for (SheetVert& vert : sheet_.verts)
         if (is_bad[vert.inner.index()]) halve(vert);
     }
+  }
+
+  std::vector<VertId> walls_under(const std::vector<char>& is_inner) const {
+    std::vector<VertId> walls;
+    for (const SheetVert& vert : sheet_.verts)
+      if (is_inner[vert.inner.index()]) walls.push_back(vert.wall);
+    return walls;
   }
 
   void halve(SheetVert& vert) {
@@ -374,9 +386,9 @@ double layer_quality(const SheetMesh& sheet, const SheetHex& hex, const LayersOp
   return least;
 }
 
-void grow_sheet(SheetMesh& sheet, const Target& target, const LayersOptions& options,
-                const Context& context) {
-  Grower(sheet, target, options, context).run();
+std::vector<VertId> grow_sheet(SheetMesh& sheet, const Target& target, const LayersOptions& options,
+                               const Context& context) {
+  return Grower(sheet, target, options, context).run();
 }
 
 }  // namespace hexwright::layers

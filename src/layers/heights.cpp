@@ -21,6 +21,7 @@ constexpr int kNumSmoothings = 4;
 double wish_of(const LayerSpec& spec, const SheetVert& vert, const Target& target) {
   switch (spec.first.unit) {
     case LayerLength::Unit::World:
+    case LayerLength::Unit::Metre:  // add_layers() has none
       return target.frame.length_to_unit(spec.total());
     case LayerLength::Unit::Diagonal:
       return spec.total() * target.diagonal();

@@ -2,7 +2,6 @@
 #include "hexwright/layers/layer_spec.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -10,7 +9,10 @@
 #include <fmt/format.h>
 
 #include "hexwright/base/error.h"
+#include "hexwright/base/length_unit.h"
 #include "hexwright/base/name_pattern.h"
+
+#include "base/read_number.h"
 
 namespace hexwright {
 namespace {
@@ -28,32 +30,31 @@ double sum_of_powers(double growth, int count) {
   return sum;
 }
 
-double read_number(std::string_view text, const std::string& key) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end || !std::isfinite(value) || !(value > 0))
-    refuse(fmt::format("'{}' of {} is no positive number", text, key));
-  return value;
+double read_positive(std::string_view text, const std::string& key) {
+  const auto value = read_number(text);
+  if (!value || !(*value > 0)) refuse(fmt::format("'{}' of {} is no positive number", text, key));
+  return *value;
 }
 
 LayerLength read_length(std::string_view text, const std::string& key) {
   if (text.ends_with('%'))
-    return {read_number(text.substr(0, text.size() - 1), key) / 100, LayerLength::Unit::Diagonal};
+    return {read_positive(text.substr(0, text.size() - 1), key) / 100, LayerLength::Unit::Diagonal};
   if (text.ends_with('h'))
-    return {read_number(text.substr(0, text.size() - 1), key), LayerLength::Unit::Edge};
-  return {read_number(text, key), LayerLength::Unit::World};
+    return {read_positive(text.substr(0, text.size() - 1), key), LayerLength::Unit::Edge};
+  if (const double metres = take_unit(text); metres > 0)
+    return {read_positive(text, key) * metres, LayerLength::Unit::Metre};
+  return {read_positive(text, key), LayerLength::Unit::World};
 }
 
 double read_growth(std::string_view text) {
-  const double growth = read_number(text, "growth");
+  const double growth = read_positive(text, "growth");
   if (growth < 1 || growth > kMaxLayerGrowth)
     refuse(fmt::format("growth:{} is not from 1 to {}", text, kMaxLayerGrowth));
   return growth;
 }
 
 int read_count(std::string_view text) {
-  const double count = read_number(text, "count");
+  const double count = read_positive(text, "count");
   if (count != std::floor(count) || count > kMaxLayers)
     refuse(fmt::format("count:{} is no whole number from 1 to {}", text, kMaxLayers));
   return static_cast<int>(count);
@@ -124,6 +125,8 @@ std::string to_text(const LayerLength& length) {
       return fmt::format("{:.6g}%", 100 * length.value);
     case LayerLength::Unit::Edge:
       return fmt::format("{:.6g}h", length.value);
+    case LayerLength::Unit::Metre:
+      return fmt::format("{:.6g}m", length.value);
     case LayerLength::Unit::World:
       break;
   }

@@ -33,6 +33,14 @@ void require_valid(const HexMesh& mesh) {
                   fmt::format("hex {}", h.value()));
 }
 
+void require_known_units(const LayersOptions& options) {
+  for (const LayerSpec& spec : options.specs)
+    if (spec.first.unit == LayerLength::Unit::Metre)
+      throw Error(ErrorCode::BadArgument,
+                  "layers of '" + spec.pattern +
+                      "' are given in metres, but nobody knows the surface's unit");
+}
+
 /// Sums over the quads of each patch.
 class Reporter {
  public:
@@ -49,11 +57,12 @@ class Reporter {
       rows_[p].least_thickness = 1;
     }
     index_verts();
-    for (const LabeledQuad& quad : mesh_.labels.quads) add_area(quad);
+    for (PatchId p : rows_.ids()) rows_[p].area = sheet_.wall_area[p];
     for (const SheetHex& hex : sheet_.hexes) add_hex(hex);
     for (const LeftOut& left : sheet_.left_out)
-      if (left.patch.is_valid() && rows_[left.patch].note.empty())
-        rows_[left.patch].note = left.why;
+      for (PatchId p : left.patches)
+        if (rows_[p].note.find(left.why) == std::string::npos)
+          rows_[p].note += (rows_[p].note.empty() ? "" : "; ") + left.why;
     return finish();
   }
 
@@ -61,11 +70,6 @@ class Reporter {
   void index_verts() {
     vert_of_.assign(sheet_.mesh.num_verts(), nullptr);
     for (const SheetVert& vert : sheet_.verts) vert_of_[vert.inner] = &vert;
-  }
-
-  void add_area(const LabeledQuad& quad) {
-    if (patches_.spec_of(quad.patch) == kNoSpec) return;
-    rows_[quad.patch].area += quad_area(mesh_.positions, quad.verts);
   }
 
   void add_hex(const SheetHex& hex) {
@@ -97,15 +101,13 @@ class Reporter {
     rows_with_hexes_[quad.patch] += area;
   }
 
-  /// With both sides of a surface walls, an area counts once for each.
   std::vector<PatchLayers> finish() {
     rows_with_hexes_.resize(rows_.size(), 0);
     std::vector<PatchLayers> rows;
     for (PatchId p : rows_.ids()) {
       PatchLayers& row = rows_[p];
       if (row.patch.empty() || !(row.area > 0)) continue;
-      const double sides = std::max(1.0, std::round(rows_with_hexes_[p] / row.area));
-      const double whole = sides * row.area;
+      const double whole = row.area;
       const double with_layers = rows_with_hexes_[p];
       if (with_layers < whole * (1 - 1e-9)) {
         row.least_thickness = 0;
@@ -165,15 +167,21 @@ LayersResult add_layers(const HexMesh& mesh, const Target& target, const LayersO
                         const Context& context) {
   const auto watch = context.watch();
   const Stopwatch clock;
+  require_known_units(options);
   require_valid(mesh);
   LayersResult result;
   const WallPatches patches = find_wall_patches(mesh, target.frame, options, result.report);
   context.progress("layers", 0);
-  SheetMesh sheet = insert_sheets(mesh, target.frame, patches, options);
-  if (!sheet.hexes.empty()) {
+  SheetMesh sheet;
+  std::vector<VertId> blocked;
+  while (true) {  // each time with a wall less
+    sheet = insert_sheets(mesh, target.frame, patches, options, blocked);
+    if (sheet.hexes.empty()) break;
     set_heights(sheet, target, options);
     context.progress("layers", 0.2);
-    grow_sheet(sheet, target, options, context);
+    const std::vector<VertId> inverted = grow_sheet(sheet, target, options, context);
+    if (inverted.empty()) break;
+    blocked.insert(blocked.end(), inverted.begin(), inverted.end());
   }
   context.progress("layers", 0.9);
   result.report.patches = Reporter(mesh, patches, sheet, options).run();

@@ -9,6 +9,7 @@
 
 #include "fit/carve/visible_normal.h"
 #include "fit/sheets/insert.h"
+#include "mesh/quad.h"
 
 namespace hexwright::layers {
 namespace {
@@ -23,8 +24,8 @@ constexpr double kLeastVisible = 1e-3;  // cosine
 /// One region's part of the work.
 class Inserter {
  public:
-  Inserter(SheetMesh& result, const LayersOptions& options, Skin& skin)
-      : result_(result), mesh_(result.mesh), options_(options), skin_(skin) {}
+  Inserter(SheetMesh& result, const Similarity& frame, const LayersOptions& options, Skin& skin)
+      : result_(result), mesh_(result.mesh), frame_(frame), options_(options), skin_(skin) {}
 
   /// False when vertices were found that no sheet can pass: they are taken out of the walls.
   bool run() {
@@ -41,19 +42,11 @@ class Inserter {
 
  private:
   bool give_up(const std::vector<VertId>& verts) {
-    const auto patch_at = [&](VertId v) {
-      for (QuadId q : skin_.graph.quads(v))
-        if (skin_.is_wall(q))
-          return mesh_.labels.quads[static_cast<std::size_t>(skin_.label[q])].patch;
-      return PatchId();
-    };
     result_.left_out.push_back(
-        {patch_at(verts.front()),
-         fmt::format(
-             "no sheet of hexes fits at {} vertices; refine there, or leave the patch out of "
-             "the layers",
-             verts.size())});
-    leave_out_at(verts, skin_);
+        {leave_out_at(mesh_, verts, skin_),
+         fmt::format("no sheet of hexes fits at {} vertices, the first at {}; refine there, or "
+                     "leave the patch out of the layers",
+                     verts.size(), say_place(frame_, mesh_.positions[verts.front()]))});
     return false;
   }
 
@@ -239,6 +232,7 @@ class Inserter {
 
   SheetMesh& result_;
   HexMesh& mesh_;
+  const Similarity& frame_;
   const LayersOptions& options_;
   Skin& skin_;
   fitting::SheetPlan plan_;
@@ -247,17 +241,37 @@ class Inserter {
   IdVector<VertId, VertId> copy_of_;
 };
 
+/// Those of the vertices that are on a wall of the skin.
+std::vector<VertId> on_walls(const std::vector<VertId>& verts, const Skin& skin) {
+  std::vector<VertId> found;
+  for (VertId v : verts)
+    if (std::ranges::any_of(skin.graph.quads(v), [&](QuadId q) { return skin.is_wall(q); }))
+      found.push_back(v);
+  return found;
+}
+
 }  // namespace
 
 SheetMesh insert_sheets(const HexMesh& mesh, const Similarity& frame, const WallPatches& patches,
-                        const LayersOptions& options) {
+                        const LayersOptions& options, const std::vector<VertId>& blocked) {
   SheetMesh result;
   result.mesh = mesh;
+  result.wall_area.assign(patches.name.size(), 0);
   for (std::int32_t region : list_regions(mesh)) {
     Skin skin = make_skin(result.mesh, patches, region);
+    for (QuadId q : skin.quads.ids())
+      if (skin.is_wall(q))
+        result.wall_area[patch_of(result.mesh, skin, q)] +=
+            quad_area(result.mesh.positions, skin.quads[q]);
     const auto left_out = leave_out_walls(result.mesh, patches, options, frame, skin);
     result.left_out.insert(result.left_out.end(), left_out.begin(), left_out.end());
-    while (!Inserter(result, options, skin).run()) {
+    if (const auto verts = on_walls(blocked, skin); !verts.empty())
+      result.left_out.push_back(
+          {leave_out_at(result.mesh, verts, skin),
+           fmt::format("the layers cannot be made positive at {}; refine there, or leave the "
+                       "patch out of the layers",
+                       say_place(frame, mesh.positions[verts.front()]))});
+    while (!Inserter(result, frame, options, skin).run()) {
     }
   }
   return result;

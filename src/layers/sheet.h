@@ -37,10 +37,12 @@ struct SheetMesh {
   std::vector<SheetVert> verts;
   std::vector<SheetHex> hexes;
   std::vector<LeftOut> left_out;
+  IdVector<PatchId, double> wall_area;  ///< of walls, with a sheet or without, on each side
 };
 
-/// Inserts thin sheets under all walls of all regions.
+/// Inserts thin sheets under all walls of all regions, but for those that hold a vertex of
+/// `blocked`.
 SheetMesh insert_sheets(const HexMesh& mesh, const Similarity& frame, const WallPatches& patches,
-                        const LayersOptions& options);
+                        const LayersOptions& options, const std::vector<VertId>& blocked = {});
 
 }  // namespace hexwright::layers

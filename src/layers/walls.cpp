@@ -23,9 +23,9 @@ using relax::BoundaryGraph;
 // quads as faces.
 constexpr double kWidestEnd = 165 * 3.14159265358979323846 / 180;
 
-std::string at(const Similarity& frame, const Vec3& p) {
-  const Vec3 w = frame.to_world(p);
-  return fmt::format("({:.4g} {:.4g} {:.4g})", w.x, w.y, w.z);
+void sort_unique(std::vector<PatchId>& patches) {
+  std::sort(patches.begin(), patches.end());
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
 }
 
 /// Finds what is wrong with each wall of a skin.
@@ -67,10 +67,7 @@ class WallCheck {
     }
   }
 
-  PatchId patch_of(QuadId q) const {
-    const int label = skin_.label[q];
-    return label < 0 ? PatchId() : mesh_.labels.quads[static_cast<std::size_t>(label)].patch;
-  }
+  PatchId patch_of(QuadId q) const { return layers::patch_of(mesh_, skin_, q); }
   std::string name_of(QuadId q) const {
     const PatchId p = patch_of(q);
     return p.is_valid() ? "'" + patches_.name[p] + "'" : "a side of the domain";
@@ -81,7 +78,7 @@ class WallCheck {
                                       : "move that side, or mesh one side of the surface only";
   }
   void add(QuadId q, std::string why) {
-    faults_.try_emplace(wall_of(q), LeftOut{patch_of(q), std::move(why)});
+    faults_.try_emplace(wall_of(q), LeftOut{{}, std::move(why)});
   }
 
   void check_edge(BoundaryEdgeId e) {
@@ -154,7 +151,7 @@ class WallCheck {
                     "; give layers to all but two of them");
   }
 
-  std::string place(VertId v) const { return at(frame_, mesh_.positions[v]); }
+  std::string place(VertId v) const { return say_place(frame_, mesh_.positions[v]); }
 
   const HexMesh& mesh_;
   const WallPatches& patches_;
@@ -175,6 +172,11 @@ std::vector<std::string> names_of(const SetTable& table, const NamedSet& patch) 
 }
 
 }  // namespace
+
+std::string say_place(const Similarity& frame, const Vec3& unit) {
+  const Vec3 w = frame.to_world(unit);
+  return fmt::format("({:.4g} {:.4g} {:.4g})", w.x, w.y, w.z);
+}
 
 WallPatches find_wall_patches(const HexMesh& mesh, const Similarity& frame,
                               const LayersOptions& options, LayersReport& report) {
@@ -215,6 +217,11 @@ std::vector<std::int32_t> list_regions(const HexMesh& mesh) {
   return tags;
 }
 
+PatchId patch_of(const HexMesh& mesh, const Skin& skin, QuadId q) {
+  const int label = skin.label[q];
+  return label < 0 ? PatchId() : mesh.labels.quads[static_cast<std::size_t>(label)].patch;
+}
+
 Skin make_skin(const HexMesh& mesh, const WallPatches& patches, std::int32_t region) {
   std::map<std::array<VertId, 4>, int> quad_to_label;
   for (std::size_t i = 0; i < mesh.labels.quads.size(); ++i)
@@ -246,18 +253,28 @@ std::vector<LeftOut> leave_out_walls(const HexMesh& mesh, const WallPatches& pat
                                      const LayersOptions& options, const Similarity& frame,
                                      Skin& skin) {
   WallCheck check(mesh, patches, options, frame, skin);
-  const auto faults = check.run();
+  auto faults = check.run();
   std::vector<char> is_faulty(skin.quads.size(), 0);
-  for (QuadId q : skin.quads.ids())
-    is_faulty[q.index()] = skin.is_wall(q) && faults.contains(check.wall_of(q));
+  for (QuadId q : skin.quads.ids()) {
+    if (!skin.is_wall(q)) continue;
+    const auto fault = faults.find(check.wall_of(q));
+    if (fault == faults.end()) continue;
+    is_faulty[q.index()] = 1;
+    fault->second.patches.push_back(patch_of(mesh, skin, q));
+  }
   for (QuadId q : skin.quads.ids())
     if (is_faulty[q.index()]) skin.spec[q] = kNoSpec;
   std::vector<LeftOut> left_out;
-  for (const auto& [wall, fault] : faults) left_out.push_back(fault);
+  for (auto& [wall, fault] : faults) {
+    sort_unique(fault.patches);
+    left_out.push_back(std::move(fault));
+  }
   return left_out;
 }
 
-void leave_out_at(const std::vector<VertId>& verts, Skin& skin) {
+std::vector<PatchId> leave_out_at(const HexMesh& mesh, const std::vector<VertId>& verts,
+                                  Skin& skin) {
+  std::vector<PatchId> patches;
   std::vector<VertId> front = verts;
   while (!front.empty()) {
     const VertId v = front.back();
@@ -265,9 +282,12 @@ void leave_out_at(const std::vector<VertId>& verts, Skin& skin) {
     for (QuadId q : skin.graph.quads(v)) {
       if (!skin.is_wall(q)) continue;
       skin.spec[q] = kNoSpec;
+      patches.push_back(patch_of(mesh, skin, q));
       for (VertId w : skin.quads[q]) front.push_back(w);
     }
   }
+  sort_unique(patches);
+  return patches;
 }
 
 }  // namespace hexwright::layers

@@ -44,6 +44,9 @@ struct Skin {
     return edge.num_quads == 2 && is_wall(edge.quads[0]) != is_wall(edge.quads[1]);
   }
 };
+/// Of one of a skin's quads; invalid without a label.
+PatchId patch_of(const HexMesh& mesh, const Skin& skin, QuadId q);
+
 Skin make_skin(const HexMesh& mesh, const WallPatches& patches, std::int32_t region);
 
 /// Tags of the mesh's regions, ascending; {0} without tags.
@@ -51,9 +54,12 @@ std::vector<std::int32_t> list_regions(const HexMesh& mesh);
 
 /// A wall, of quads that hang together, that gets no layers.
 struct LeftOut {
-  PatchId patch;  ///< at the place
-  std::string why;
+  std::vector<PatchId> patches;  ///< all of the wall, ascending
+  std::string why;               ///< with the place
 };
+
+/// A place in the world, for messages.
+std::string say_place(const Similarity& frame, const Vec3& unit);
 
 /// Takes walls that no sheet can run under out of the skin: those that end in a patch that goes on
 /// flat or turns round, that touch themselves or other patches at a vertex only, or whose specs ask
@@ -61,7 +67,8 @@ struct LeftOut {
 std::vector<LeftOut> leave_out_walls(const HexMesh& mesh, const WallPatches& patches,
                                      const LayersOptions& options, const Similarity& frame,
                                      Skin& skin);
-/// Takes out the walls that hold any of these vertices.
-void leave_out_at(const std::vector<VertId>& verts, Skin& skin);
+/// Takes out the walls that hold any of these vertices. Returns their patches, ascending.
+std::vector<PatchId> leave_out_at(const HexMesh& mesh, const std::vector<VertId>& verts,
+                                  Skin& skin);
 
 }  // namespace hexwright::layers

@@ -68,10 +68,10 @@ bool is_near_enough(const MeshResult& result, double tolerance) {
 /// The gate is that of the tolerance asked for, not of the one that led to the mesh.
 void judge_as_asked(const MeshOptions& options, MeshResult& result) {
   const double distance = distance_of(result);
-  std::erase(result.failures, say_beyond_gate(distance, result.tolerance));
-  result.tolerance = options.sizing.tolerance;
+  std::erase(result.failures, say_beyond_gate(distance, result.options.sizing.tolerance));
+  result.options.sizing.tolerance = options.sizing.tolerance;
   if (is_gated(options, distance))
-    result.failures.push_back(say_beyond_gate(distance, result.tolerance));
+    result.failures.push_back(say_beyond_gate(distance, result.options.sizing.tolerance));
 }
 
 MeshResult say_warnings(MeshResult&& result, const Context& context) {
@@ -98,13 +98,14 @@ MeshResult search_budget(const MeshOptions& options, Run run, const Context& con
   }
   if (fits && first && is_nearer(*first)) best = std::move(*first);
   if (!best)
-    throw Error(ErrorCode::OutOfResources,
-                fmt::format("the coarsest mesh has more hexes than the budget of {}; raise "
-                            "--max-hexes{}",
-                            options.most_hexes,
-                            options.sizing.min_level > 0 ? " or lower --min-level" : ""));
+    throw Error(
+        ErrorCode::OutOfResources,
+        fmt::format("the coarsest mesh has more hexes than the budget of {}; raise "
+                    "--max-hexes{}{}",
+                    options.most_hexes, options.sizes.any() ? " or ask for larger cells" : "",
+                    options.sizing.min_level > 0 ? " or lower --min-level" : ""));
   MeshResult result = say_warnings(std::move(*best), context);
-  if (result.tolerance > tolerance || distance_of(result) > tolerance)
+  if (result.options.sizing.tolerance > tolerance || distance_of(result) > tolerance)
     context.warn(fmt::format(
         "the budget of {} hexes ends refinement: the mesh has {} and departs by up to {:.3g}% of "
         "the diagonal, where {:.3g}% is asked for; raise --max-hexes or the tolerance",

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -73,6 +75,19 @@ std::string name_of(const CadModel& model, const SolidSet& solids) {
             (given.empty() ? fmt::format("solid_{}", s.value() + 1) : given);
   }
   return name;
+}
+
+/// Solids by the names that hexes' regions have. A rule that names none is left to the groups.
+void find_solids(const CadModel& model, SizeRule& rule) {
+  const std::regex pattern(rule.pattern);
+  TriMesh region;
+  for (const CadSolidId s : model.solids.ids())
+    if (std::regex_match(name_of(model, SolidSet{s}), pattern)) {
+      TriMesh solid = surface_of(model, s);
+      region.positions = std::move(solid.positions);
+      for (const auto& tri : solid.tris) region.tris.push_back(tri);
+    }
+  if (!region.tris.empty()) rule.surface = std::make_shared<const TriMesh>(std::move(region));
 }
 
 /// Gives hexes the region of their solid.
@@ -158,7 +173,11 @@ CadInput prepare_cad(CadModel model, std::vector<PatchRule> rules, const MeshOpt
 }
 
 MeshOptions options_for_cad(const MeshOptions& wishes, const CadInput& input) {
+  constexpr double kMillimetre = 1e-3;  // what all CAD files are read in
   MeshOptions options = wishes;
+  options.sizes.unit = kMillimetre;
+  for (SizeRule& rule : options.sizes.rules)
+    if (rule.where == SizeRule::Where::Region && !rule.surface) find_solids(input.model, rule);
   use_cad_features(input.surface, options.target.features);
   options.exact = make_exact_shape(input.model, input.surface);
   // The loop must see the mesh as it will be, on the shape, not balanced about it; around poor

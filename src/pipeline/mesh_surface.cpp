@@ -16,12 +16,15 @@
 #include "base/stage_log.h"
 #include "pipeline/bodies_apart.h"
 #include "pipeline/budget_search.h"
+#include "pipeline/cut_by_domain.h"
 #include "pipeline/loop/budgets.h"
 #include "pipeline/loop/exact_boundary.h"
 #include "pipeline/loop/hex_limit.h"
 #include "pipeline/loop/loop.h"
 #include "pipeline/loop/outer_faces.h"
 #include "pipeline/loop/poor_hexes.h"
+#include "pipeline/options/size_places.h"
+#include "pipeline/shared_budget.h"
 #include "pipeline/size_search.h"
 
 namespace hexwright {
@@ -126,10 +129,10 @@ MeshResult mesh_target(const Target& target, const MeshOptions& options, const C
   apply_gate(input, best, result);
   take_round(std::move(best), result);
   result.levels = find_levels(result.mesh, result.grid);
-  if (stages.sizing.domain && options.fit.carve.side != Side::Inside)
-    name_outer_faces(box_of(*stages.sizing.domain), result.mesh);
+  if (options.fit.carve.side != Side::Inside)
+    name_outer_faces(box_of({result.grid.frame, result.grid.roots}), result.mesh);
   result.edges = measure_edges(result.mesh);
-  result.tolerance = options.sizing.tolerance;
+  result.options = options;
   result.to_world(target.frame);
   check_after_mapping(target.frame, result);
   return result;
@@ -147,13 +150,12 @@ Context collect_warnings(const Context& caller, std::vector<std::string>& warnin
 }
 
 /// One of the groups of bodies that are meshed apart. What it says is said of it.
-MeshResult mesh_part(const Target& whole, const TriMesh& part, const MeshOptions& options,
-                     const Context& caller, std::size_t number) {
+MeshResult mesh_part(const TriMesh& part, const MeshOptions& wishes, const Context& caller,
+                     std::size_t number) {
   caller.check_cancelled();
   const std::string whose = fmt::format("group {} (in shares of its own diagonal): ", number);
   Context context = caller;
   context.on_warning = [&](std::string_view said) { caller.warn(whose + std::string(said)); };
-  const MeshOptions wishes = plan_part(options, whole, part);
   MeshResult result = mesh_target(make_target(part, plan_target(wishes), context), wishes, context);
   for (std::string& failure : result.failures) failure = whose + failure;
   return result;
@@ -164,8 +166,12 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
   const std::vector<TriMesh> parts = split_near_bodies(target, plan_gap(options, target));
   if (parts.empty()) return mesh_target(target, options, context);
   std::vector<MeshResult> results;
-  for (const TriMesh& part : parts)
-    results.push_back(mesh_part(target, part, options, context, results.size() + 1));
+  SharedBudget budget(options, parts);
+  for (const TriMesh& part : parts) {
+    const MeshOptions wishes = budget.allow(plan_part(options, target, part));
+    results.push_back(mesh_part(part, wishes, context, results.size() + 1));
+    budget.spend(results.back());
+  }
   MeshResult result = join_parts(std::move(results), target);
   result.diagonal = target.frame.length_to_world(target.diagonal());
   result.surface = target.diagnosis;
@@ -178,7 +184,7 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
       result.failures.push_back(failure);
   result.verdict.to_world(target.frame);
   result.edges = measure_edges(result.mesh);
-  result.tolerance = options.sizing.tolerance;
+  result.options = options;
   return result;
 }
 
@@ -204,11 +210,18 @@ bool sets_size(const SizeWishes& sizes) { return sizes.size.is_given() || sizes.
 
 MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const Context& caller) {
   const Stopwatch clock;
-  const MeshOptions options = resolve_sizes(wishes, surface);
+  MeshOptions options = resolve_sizes(wishes, surface);
+  const SizeWishes asked = options.sizes;
   const auto watch = caller.watch();
   std::vector<std::string> warnings;
   const Context context = collect_warnings(caller, warnings);
-  const Target target = make_target(surface, plan_target(options), context);
+  Target target = make_target(surface, plan_target(options), context);
+  find_regions(options.sizes.rules, target);
+  if (const auto box = find_domain_box(options, object_box(target))) {
+    options.sizes.box = box;
+    options.sizes.margin.reset();
+    cut_by_domain({target.frame.to_unit(box->lo), target.frame.to_unit(box->hi)}, target);
+  }
   const auto run = [&](const MeshOptions& sized, const Context& of_run) {
     MeshResult made = mesh_bodies(target, sized, of_run);
     // Bodies apart and layers add to what was counted before.
@@ -219,7 +232,10 @@ MeshResult mesh_surface(const TriMesh& surface, const MeshOptions& wishes, const
   MeshResult result = options.most_hexes > 0 && !sets_size(options.sizes)
                           ? search_budget(options, run, context)
                           : search_sizes(target, options, run, context);
-  result.size_asked = wishes.sizes.size.in(bounding_box(surface).diagonal());
+  const double diagonal = bounding_box(surface).diagonal();
+  result.size_asked = options.sizes.size.in(diagonal);
+  result.size_used = result.options.sizes.size.in(diagonal);
+  result.options.sizes = asked;
   result.warnings = std::move(warnings);
   result.seconds = clock.seconds();
   return result;

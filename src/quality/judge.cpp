@@ -97,6 +97,7 @@ DistanceOptions distance_options(const Target& target, const JudgeOptions& optio
           .spacing = options.spacing,
           .hot_threshold = options.hot_threshold,
           .solid_only = !target.expected.is_known,
+          .domain = options.domain,
           .bound_gap = options.bound_gap};
 }
 

@@ -109,7 +109,7 @@ TEST(MeshCad, ReportsTheModelAndTheExactBoundary) {
   const MeshResult result = mesh_cad(input, options, {});
   RunInfo run{"plate_hole.step", "out.vtu", 1};
   run.cad = summarize_cad(input.model, input.surface);
-  const std::string report = report_to_json(result, options, run);
+  const std::string report = report_to_json(result, run);
   for (const char* key : {"\"exact_boundary\"", "\"cylinder r=5 along z through (20, 10, 0)\"",
                           "\"named_faces\": 4", "\"file_unit\": \"millimetre\""})
     EXPECT_NE(report.find(key), std::string::npos) << key;

@@ -2,11 +2,13 @@
 #include "hexwright/grid/size_field.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/base/parallel.h"
 #include "hexwright/grid/locate.h"
@@ -47,6 +49,33 @@ TEST(SizeField, CellsAreTheLargestWithinTheBound) {
   EXPECT_FALSE(grid.find_problem());
   EXPECT_DOUBLE_EQ(edge_at(grid, {0.1, 0.1, 0.1}), 1.0 / 16);
   EXPECT_DOUBLE_EQ(edge_at(grid, {0.9, 0.1, 0.1}), 0.25);
+}
+
+TEST(SizeField, NoCellIsBelowTheDeepestLevel) {
+  SizeField field;
+  field.limits.push_back(bound_at({0.1, 0.1, 0.1}, 0.01));
+  field.deepest = 3;
+  const Grid grid = refine_to_sizes(make_root_grid({{0, 0, 0}, 1}), field, everywhere, kEnough);
+  EXPECT_EQ(grid.finest_level, 3);
+}
+
+TEST(SizeField, BoundsAreAskedOncePerCell) {
+  SizeField field;
+  std::atomic<std::size_t> num_calls = 0;
+  field.limits.push_back([&](const Box3& cell) {
+    ++num_calls;
+    return cell.contains({0.1, 0.1, 0.1}) ? 0.01 : 1.0;
+  });
+  const Grid grid = refine_to_sizes(make_root_grid({{0, 0, 0}, 1}), field, everywhere, kEnough);
+  EXPECT_EQ(num_calls, 1 + 8 * ((grid.num_cells() - 1) / 7));
+}
+
+TEST(SizeField, EndsWhereTheCallerWantsIt) {
+  SizeField field;
+  field.limits.push_back([](const Box3&) { return 0.1; });
+  const std::atomic<bool> is_cancelled = true;
+  const CancelScope scope(&is_cancelled);
+  EXPECT_THROW(refine_to_sizes(make_root_grid({{0, 0, 0}, 1}), field, everywhere, kEnough), Error);
 }
 
 TEST(SizeField, TheLeastEdgeAndPlacesThatDoNotMatterStayCoarse) {

@@ -18,7 +18,7 @@ TEST(Report, SaysWhatTheResultHolds) {
   options.max_rounds = 1;
   const MeshResult r = mesh_surface(test::unit_sphere_surface(3), options, {});
   const auto json =
-      nlohmann::json::parse(report_to_json(r, options, {"in \"quoted\".stl", "out.vtu", 2, {}}));
+      nlohmann::json::parse(report_to_json(r, {"in \"quoted\".stl", "out.vtu", 2, {}}));
   EXPECT_EQ(json["version"], HEXWRIGHT_VERSION);
   EXPECT_EQ(json["input"], "in \"quoted\".stl");
   EXPECT_EQ(json["hexes"], r.mesh.num_hexes());

@@ -17,9 +17,10 @@ struct SizeField {
   /// The largest edge of a cell with this box, infinity where nothing is asked for. Called from
   /// several threads at once.
   using Limit = std::function<double(const Box3& cell)>;
-  std::vector<Limit> limits;  ///< the least counts
-  double least_edge = 0;      ///< no cell is split below this
-  bool is_exact = false;      ///< nor is any more than one level finer than its bound
+  std::vector<Limit> limits;    ///< the least counts
+  double least_edge = 0;        ///< no cell is split below this
+  int deepest = kMaxGridLevel;  ///< nor is any below this level
+  bool is_exact = false;        ///< nor is any more than one level finer than its bound
   /// The largest growth of edges over distance: cells of edge e lie at least (e - h) / (growth - 1)
   /// from those of edge h that were there before. 0 = what balance leaves.
   double growth = 0;
@@ -38,7 +39,8 @@ using IsNeeded = FunctionRef<bool(const Box3& cell)>;
 
 /// Splits needed leaves until each keeps to the field's limits and then to its growth. Sizes are
 /// compared by the frame's `root_size`. Same result for any thread count.
-/// Errors: OutOfResources, with the count, when the grid would have more than `max_cells` leaves.
+/// Errors: OutOfResources, with the count, as soon as the grid would have more than `max_cells`
+/// leaves, or one of them would have to be smaller than those of the deepest level there is.
 Grid refine_to_sizes(Grid grid, const SizeField& field, IsNeeded is_needed, std::size_t max_cells);
 
 /// A domain of one root around the box, enlarged on each side by the margin (share of its longest

@@ -6,12 +6,13 @@
 
 namespace hexwright {
 
-/// A length given in one of three ways.
+/// A length given in one of four ways.
 struct LayerLength {
   enum class Unit {
     World,     ///< the surface's own unit
     Diagonal,  ///< a share of the surface's diagonal: "0.1%"
-    Edge       ///< a share of the wall's edges around a vertex: "0.05h"
+    Edge,      ///< a share of the wall's edges around a vertex: "0.05h"
+    Metre      ///< "2mm", whatever the surface's unit is
   };
   double value = 0;
   Unit unit = Unit::World;

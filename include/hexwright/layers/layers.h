@@ -28,10 +28,10 @@ struct LayersOptions {
 /// Why layers are lower than asked for, or absent.
 enum class LayerLimit : std::uint8_t {
   None,
-  Gap,    ///< half of the way to a facing wall, or to the end of the mesh
-  Size,   ///< edges of the wall are short against the wish, here or nearby
+  Gap,    ///< 0.4 of the way to a facing wall, 0.7 of that to the end of the mesh
+  Size,   ///< three edges of the wall, here or nearby; or a neighbour at a rim that stays
   Shape,  ///< hexes would be inverted or too oblique
-  Rim     ///< no sheet ends here: the wall goes on, or turns round, in a patch without layers
+  Rim     ///< no sheet: see the note
 };
 constexpr int kNumLayerLimits = 5;
 
@@ -39,7 +39,7 @@ constexpr int kNumLayerLimits = 5;
 struct PatchLayers {
   std::string patch;
   int count = 0;               ///< layers asked for
-  double area = 0;             ///< of the wall
+  double area = 0;             ///< of the wall, each side that is meshed
   double covered = 0;          ///< share of it with all layers, each at least half as high as asked
   double mean_thickness = 0;   ///< of all layers together, over the one asked for; by area
   double least_thickness = 0;  ///< the same at its least
@@ -73,13 +73,16 @@ struct LayersResult {
 
 /// Puts a sheet of hexes under the walls, relaxes the inside, and splits the sheet. Walls keep
 /// their vertices where they are; labels follow. Hexes of the mesh keep their order and come first.
-/// Mesh and target are in unit coordinates. Guarantees: what is valid stays valid.
-/// Errors: BadArgument when a corner of a hex is not positive, or for a bad pattern.
+/// Mesh and target are in unit coordinates. Mid-nodes of second order are not looked at: take them
+/// out before, and curve the result. Guarantees: every hex of the result, each layer too, has
+/// positive corners; a wall where that cannot be has no layers, and its patches say so.
+/// Errors: BadArgument when a corner of a hex is not positive, for a bad pattern, or for lengths in
+/// metres.
 LayersResult add_layers(const HexMesh& mesh, const Target& target, const LayersOptions& options,
                         const Context& context);
 
-/// "wall.1 8 layers, 99.2% of the area covered, thickness 97% of the wish (least 55% at (1 2 3)),
-/// ...", one line per patch.
+/// "layers on wall.1: 8 on 99.2% of the area, height 97.0% of the wish (least 55% at (1 2 3)),
+/// first 0.01; lower by a facing wall 2.1%", one line per patch, and its note below.
 std::string layers_to_text(const LayersReport& report);
 
 }  // namespace hexwright

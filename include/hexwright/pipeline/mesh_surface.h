@@ -127,7 +127,10 @@ struct MeshResult {
   IdVector<HexId, std::int32_t> layer;
   EdgeLengths edges;
   double size_asked = 0;  ///< the largest edge that was asked for everywhere; 0 = none was
-  double tolerance = 0;   ///< distance goal, share of the diagonal: as asked, or as sizes allow
+  double size_used = 0;   ///< of the lattice, so that edges keep to it; with `cells` the one found
+  /// The wishes with what follows from them: lengths in the surface's unit, the distance goal as
+  /// asked or as sizes allow.
+  MeshOptions options;
   std::vector<StageRecord> stages;  ///< those of the best round, after the common ones
   std::vector<RoundRecord> rounds;
   int num_rounds = 0;  ///< refinements after the first fit

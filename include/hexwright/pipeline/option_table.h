@@ -25,6 +25,7 @@ enum class OptionKind {
   Length,   ///< above 0, in the surface's unit, or a share of the diagonal: "2" or "1%"
   Degrees,  ///< an angle
   Choice,   ///< one of a few names
+  File,     ///< the name of a file
   Text,     ///< in a form of its own
   List      ///< the same, repeated: one per line
 };

@@ -11,7 +11,9 @@ namespace hexwright {
 /// depend on the machine.
 struct Budgets {
   std::size_t background = std::numeric_limits<std::size_t>::max();  ///< hexes of one background
-  std::size_t rounds = std::numeric_limits<std::size_t>::max();      ///< of all rounds' backgrounds
+  /// Cells of a grid that keeps to the sizes asked for: more would leave too many hexes.
+  std::size_t sized = std::numeric_limits<std::size_t>::max();
+  std::size_t rounds = std::numeric_limits<std::size_t>::max();  ///< of all rounds' backgrounds
   /// Cells of the next grid over those of the last, from a valid mesh within the gate.
   double growth = std::numeric_limits<double>::infinity();
   bool is_shortened = false;  ///< for an open or overlapping surface: rounds are a share of theirs

@@ -22,9 +22,9 @@ struct RunInfo {
 };
 
 /// Counts per level and stage, seconds, peak memory, quality, distances, features, rounds, options,
-/// versions, warnings and failures. Keys are documented in docs/cli.md.
-std::string report_to_json(const MeshResult& result, const MeshOptions& options,
-                           const RunInfo& run);
+/// versions, warnings and failures; the options as they were in the end. Keys are documented in
+/// docs/cli.md.
+std::string report_to_json(const MeshResult& result, const RunInfo& run);
 
 /// The options as one JSON object, as the report has them.
 std::string mesh_options_to_json(const MeshOptions& options);

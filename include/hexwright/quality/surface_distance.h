@@ -14,8 +14,8 @@ namespace hexwright {
 /// Which quads of a hex mesh stand for the surface.
 enum class JudgedQuads {
   Boundary,  ///< the whole boundary
-  Labeled    ///< the labelled quads that carry a patch: leaves out the box around an outside mesh,
-             ///< and finds the interface of a mesh of both sides
+  Labeled    ///< the labelled quads that carry a patch: leaves out the box around an outside mesh
+             ///< (until its sides are named), and finds the interface of a mesh of both sides
 };
 
 /// The quads, counter-clockwise seen from outside.
@@ -32,6 +32,8 @@ struct DistanceOptions {
   /// not bound the solid (overlapped parts, by the winding number on both sides); on the mesh,
   /// those where the winding number closes a hole of the surface.
   bool solid_only = true;
+  /// What the mesh fills: samples of the surface on the box's sides are left out too.
+  std::optional<Box3> domain = {};
   /// With upper bounds of the largest distances, so near to the distances found (share of the
   /// diagonal); 0 = without. None of meshes with nodes inside of faces (MidNodes::inner).
   double bound_gap = 0;
@@ -53,8 +55,9 @@ struct SurfaceDistance {
   /// With a DistanceOptions::bound_gap. The maxima then are lower bounds for the same patches.
   std::optional<DistanceUpperBound> upper;
   Vec3 worst_on_surface, worst_on_mesh;  ///< where the maxima are reached
-  double ignored_share = 0;  ///< of the surface's samples, by area: left out by solid_only
-  std::vector<Vec3> hot;     ///< samples farther than hot_threshold
+  /// Of the surface's samples, by area: left out by solid_only and domain.
+  double ignored_share = 0;
+  std::vector<Vec3> hot;  ///< samples farther than hot_threshold
   double max_two_way() const { return std::max(max_to_mesh, max_to_surface); }
   double mean_two_way() const { return std::max(mean_to_mesh, mean_to_surface); }
   void to_world(const Similarity& frame);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/base/error.h"
 #include "hexwright/base/function_ref.h"
 #include "hexwright/base/parallel.h"
@@ -26,39 +27,67 @@ double edge_of(const Grid& grid, CellId c) {
   return grid.frame.root_size / static_cast<double>(1 << grid.cells[c].level);
 }
 
-/// Splits the marked leaves; false when there are none.
-bool split_marked(Grid& grid, const std::vector<char>& marks, std::size_t max_cells) {
-  const auto num_marked = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-  if (num_marked == 0) return false;
-  const std::size_t num_cells = grid.num_cells() + 7 * num_marked;
-  if (num_cells > max_cells)
-    throw Error(ErrorCode::OutOfResources,
-                fmt::format("the sizes asked for need more than {} cells, the budget is {}; ask "
-                            "for larger cells or raise --max-hexes and --max-cells",
-                            num_cells, max_cells));
-  grid = split_cells(grid, marks);
-  return true;
+/// Marks the leaves to split, for as long as the grid keeps to `max_cells`: asking may be costly.
+/// Returns how many are marked.
+std::size_t mark_leaves(const Grid& grid, FunctionRef<bool(CellId)> is_marked,
+                        std::size_t max_cells, std::vector<char>& marks) {
+  constexpr std::size_t kChunk = 4096;
+  std::size_t num_marked = 0;
+  for (std::size_t begin = 0; begin < marks.size(); begin += kChunk) {
+    check_cancelled();
+    const std::size_t count = std::min(kChunk, marks.size() - begin);
+    parallel_for(
+        count,
+        [&](std::size_t i) { marks[begin + i] = marks[begin + i] && is_marked(CellId(begin + i)); },
+        64);
+    const auto first = marks.begin() + static_cast<std::ptrdiff_t>(begin);
+    num_marked +=
+        static_cast<std::size_t>(std::count(first, first + static_cast<std::ptrdiff_t>(count), 1));
+    const std::size_t num_cells = grid.num_cells() + 7 * num_marked;
+    if (num_marked > 0 && num_cells > max_cells)
+      throw Error(ErrorCode::OutOfResources,
+                  fmt::format("the sizes asked for need more than {} cells, the budget is {}; ask "
+                              "for larger cells or raise --max-hexes and --max-cells",
+                              num_cells, max_cells));
+  }
+  return num_marked;
 }
 
-/// Splits cells for as long as there are some that `is_marked` takes.
+/// One flag per leaf of the grid after the marked ones were split: whether it is new.
+std::vector<char> flag_new(const std::vector<char>& marks) {
+  std::vector<char> is_new;
+  for (char mark : marks) is_new.insert(is_new.end(), mark ? 8 : 1, mark);
+  return is_new;
+}
+
+/// Splits cells for as long as there are some that `is_marked` takes. It is asked once for each
+/// cell: bounds may be costly.
 void split_while(Grid& grid, FunctionRef<bool(CellId)> is_marked, std::size_t max_cells) {
-  std::vector<char> marks;
-  do {
-    marks.assign(grid.num_cells(), 0);
-    parallel_for(
-        grid.num_cells(), [&](std::size_t i) { marks[i] = is_marked(CellId(i)); }, 64);
-  } while (split_marked(grid, marks, max_cells));
+  std::vector<char> marks(grid.num_cells(), 1);
+  while (mark_leaves(grid, is_marked, max_cells, marks) > 0) {
+    grid = split_cells(grid, marks);
+    marks = flag_new(marks);
+  }
+}
+
+[[noreturn]] void refuse_size() {
+  throw Error(ErrorCode::OutOfResources,
+              "cells of the size asked for are too small for the surface's size; ask for larger "
+              "cells");
 }
 
 void split_to_limits(Grid& grid, const SizeField& field, IsNeeded is_needed,
                      std::size_t max_cells) {
   if (field.limits.empty()) return;
   const auto is_too_large = [&](CellId c) {
-    if (grid.cells[c].level >= kMaxGridLevel) return false;
+    const int level = grid.cells[c].level;
+    if (level >= field.deepest && field.deepest < kMaxGridLevel) return false;
     const Box3 box = cell_box(grid, c);
     const double edge = edge_of(grid, c);
     if (edge / 2 < field.least_edge * (1 - kRounding)) return false;
-    return edge > field.limit(box) * (1 + kRounding) && is_needed(box);
+    if (edge <= field.limit(box) * (1 + kRounding) || !is_needed(box)) return false;
+    if (level >= kMaxGridLevel) refuse_size();
+    return true;
   };
   split_while(grid, is_too_large, max_cells);
 }
@@ -73,10 +102,12 @@ void sort_unique(CellSet& cells) {
 
 /// All cells within `reach` of the set along each axis.
 CellSet dilate(CellSet cells, std::int32_t reach) {
+  CancelCheck check_cancelled;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     CellSet wider;
     wider.reserve(cells.size() * static_cast<std::size_t>(2 * reach + 1));
     for (LatticeCoord c : cells) {
+      check_cancelled();
       c[axis] -= reach;
       for (std::int32_t i = 0; i <= 2 * reach; ++i, ++c[axis]) wider.push_back(c);
     }

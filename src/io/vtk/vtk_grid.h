@@ -29,6 +29,7 @@ struct VtkGrid {
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> ends;  ///< per cell: one past its last entry in connectivity
   std::vector<std::int32_t> types;
+  VtkArrays point_data;  ///< where it was asked for
   VtkArrays cell_data;
   VtkArrays field_data;
   bool is_polygons = false;  ///< PolyData, not an unstructured grid
@@ -38,5 +39,8 @@ struct VtkGrid {
 /// this order. Throws Error{BadFile} naming the line or the array.
 VtkGrid parse_vtk_legacy(std::string_view bytes, const std::string& file_name);
 VtkGrid parse_vtk_xml(std::string_view bytes, const std::string& file_name);
+
+/// parse_vtk_xml() with the point data of one component.
+VtkGrid parse_vtk_xml_points(std::string_view bytes, const std::string& file_name);
 
 }  // namespace hexwright::io

@@ -18,6 +18,8 @@ enum VtkCellType : std::int32_t {
   VtkTetra = 10,
   VtkVoxel = 11,
   VtkHexahedron = 12,
+  VtkWedge = 13,
+  VtkPyramid = 14,
   VtkQuadraticEdge = 21,
   VtkQuadraticQuad = 23,
   VtkQuadraticHexahedron = 25,

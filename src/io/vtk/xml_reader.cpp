@@ -13,7 +13,8 @@ namespace {
 
 class VtkXmlReader {
  public:
-  VtkXmlReader(std::string_view bytes, const std::string& name) : file_(bytes, name) {}
+  VtkXmlReader(std::string_view bytes, const std::string& name, bool wants_points)
+      : file_(bytes, name), wants_points_(wants_points) {}
 
   VtkGrid run() {
     grid_.is_polygons = !file_.root().child("PolyData").empty();
@@ -44,6 +45,8 @@ class VtkXmlReader {
                           "a coordinate is not finite; export the file again");
       grid_.positions.push_back(p);
     }
+    if (wants_points_)
+      read_data(piece.child("PointData"), grid_.point_data, static_cast<std::size_t>(first_vert));
     const std::size_t num_cells_before = grid_.ends.size();
     grid_.is_polygons ? read_polygons(piece, first_vert)
                       : read_cells(piece.child("Cells"), first_vert);
@@ -123,13 +126,18 @@ class VtkXmlReader {
   }
 
   VtkXmlFile file_;
+  bool wants_points_;
   VtkGrid grid_;
 };
 
 }  // namespace
 
 VtkGrid parse_vtk_xml(std::string_view bytes, const std::string& file_name) {
-  return VtkXmlReader(bytes, file_name).run();
+  return VtkXmlReader(bytes, file_name, false).run();
+}
+
+VtkGrid parse_vtk_xml_points(std::string_view bytes, const std::string& file_name) {
+  return VtkXmlReader(bytes, file_name, true).run();
 }
 
 }  // namespace hexwright::io

@@ -191,7 +191,7 @@ Grid keep_to_sizes(const RoundInput& input, const Grid& grid) {
     filter.max_distance = 0.8 * box.diagonal();
     return tree.closest(box.center(), filter) || tree.is_inside(box.center());
   };
-  return refine_to_sizes(grid, sizes, is_needed, input.plan.budgets.background);
+  return refine_to_sizes(grid, sizes, is_needed, input.plan.budgets.sized);
 }
 
 CompleteResult even_out(const RoundInput& input, const Grid& given, bool is_even) {

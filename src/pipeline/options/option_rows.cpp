@@ -2,7 +2,6 @@
 // belong, rests behind the number and overflow are errors.
 #include "pipeline/options/option_rows.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,6 +14,8 @@
 
 #include "hexwright/base/error.h"
 
+#include "base/read_number.h"
+
 namespace hexwright {
 namespace {
 
@@ -22,20 +23,6 @@ constexpr const char* kNone = "none";
 
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
   throw Error(ErrorCode::BadArgument, fmt::format("'{}' is {}", text, what));
-}
-
-template <class Value>
-std::optional<Value> read_whole(std::string_view text) {
-  Value value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return value;
-}
-
-std::optional<double> to_number(std::string_view text) {
-  const auto value = read_whole<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 bool to_flag(const std::string& text) {
@@ -63,7 +50,7 @@ NamedOption make_row(RowText text, OptionKind kind, std::string allowed, std::st
 
 double parse_share(const std::string& text, bool zero_allowed) {
   const bool is_percent = text.ends_with('%');
-  const auto number = to_number(std::string_view(text).substr(0, text.size() - is_percent));
+  const auto number = read_number(std::string_view(text).substr(0, text.size() - is_percent));
   const double value = number.value_or(-1) / (is_percent ? 100 : 1);
   // A share of 1 or more is nearly always a forgotten percent sign.
   const bool is_share = (value > 0 && value < 1) || (zero_allowed && value == 0);
@@ -114,7 +101,7 @@ NamedOption number_row(RowText text, double& value, double least, double most) {
   NamedOption row =
       make_row(std::move(text), OptionKind::Number, allowed, fmt::format("{}", value));
   row.set = [&value, least, most, allowed](const std::string& given) {
-    const auto number = to_number(given);
+    const auto number = read_number(given);
     if (!number || *number < least || *number > most) refuse(given, "no number from " + allowed);
     value = *number;
   };
@@ -127,7 +114,7 @@ NamedOption degrees_row(RowText text, double& radians, double least, double most
   NamedOption row =
       make_row(std::move(text), OptionKind::Degrees, allowed, fmt::format("{:.6g}", degrees));
   row.set = [&radians, least, most, allowed](const std::string& given) {
-    const auto number = to_number(given);
+    const auto number = read_number(given);
     if (!number || *number < least || *number > most)
       refuse(given, "no angle in degrees from " + allowed);
     radians = *number * std::numbers::pi / 180;
@@ -152,6 +139,13 @@ NamedOption text_row(RowText text, std::string form,
                      std::function<void(const std::string& text)> read) {
   NamedOption row = make_row(std::move(text), OptionKind::Text, std::move(form), kNone);
   row.set = std::move(read);
+  return row;
+}
+
+NamedOption file_row(RowText text, std::string form,
+                     std::function<void(const std::string& path)> read) {
+  NamedOption row = text_row(std::move(text), std::move(form), std::move(read));
+  row.kind = OptionKind::File;
   return row;
 }
 

@@ -35,7 +35,10 @@ NamedOption length_row(RowText text, Length& value);
 /// What only a reader of its own understands; `form` says how it is written.
 NamedOption text_row(RowText text, std::string form,
                      std::function<void(const std::string& text)> read);
-/// The same, repeated: lines of text.
+/// The name of a file that `read` reads.
+NamedOption file_row(RowText text, std::string form,
+                     std::function<void(const std::string& path)> read);
+/// As text_row, repeated: lines of text.
 NamedOption list_row(RowText text, std::string form,
                      std::function<void(const std::string& text)> read);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/options/option_rows.h"
+#include "pipeline/options/size_rows.h"
 
 namespace hexwright {
 namespace {
@@ -107,48 +108,6 @@ OptionTable prepare_rows(PrepareOptions& options) {
   return table;
 }
 
-OptionTable size_rows(SizeWishes& sizes) {
-  return {
-      length_row({"size",
-                  "Edge of the cells, everywhere: no longer, and at most one level finer. "
-                  "Around an object that of the cells at its surface"},
-                 sizes.size),
-      length_row({"max-size", "No cell is larger; finer ones where the surface asks for them"},
-                 sizes.max_size),
-      length_row({"min-size", "No cell is finer"}, sizes.min_size),
-      list_row({"refine",
-                "Cells near a place are no larger than SIZE, and within DISTANCE of it; "
-                "repeated"},
-               "WHERE=SIZE[,DISTANCE] with WHERE box:X0,Y0,Z0,X1,Y1,Z1, ball:X,Y,Z,R, "
-               "cylinder:X0,Y0,Z0,X1,Y1,Z1,R, patch:NAME, curve:NAME or near:FILE",
-               [&sizes](const std::string& text) { sizes.rules.push_back(parse_size_rule(text)); }),
-      number_row({"growth",
-                  "Largest growth of cells over distance: 1.2 is gentle; 0 = as balance "
-                  "leaves it"},
-                 sizes.growth, 0, kNoLimit),
-      whole_row({"across",
-                 "At least so many cells across the thickness of the solid, or of gaps "
-                 "outside; 0 = as the tolerance asks"},
-                sizes.across, 0, kMostAcross),
-      whole_row({"cells", "Find the size that gives about so many hexes; 0 = not"}, sizes.cells, 0,
-                kMostCells),
-      text_row({"sizes", "A file of sizes: the options above and 'box' or 'margin', by name"},
-               "FILE.json", [&sizes](const std::string& path) { read_size_wishes(path, sizes); }),
-  };
-}
-
-OptionTable domain_rows(SizeWishes& sizes) {
-  return {
-      text_row({"box", "The domain around the object"}, "X0,Y0,Z0,X1,Y1,Z1",
-               [&sizes](const std::string& text) { sizes.box = parse_box(text); }),
-      text_row({"margin",
-                "Room around the object instead, on all sides, per axis or per side: "
-                "lengths, or 5L for five times its longest side"},
-               "M, MX,MY,MZ or six",
-               [&sizes](const std::string& text) { sizes.margin = parse_margin(text); }),
-  };
-}
-
 /// A tolerance asked for is not derived from sizes.
 void mark_tolerance(OptionTable& table, MeshOptions& options) {
   for (NamedOption& row : table)
@@ -188,7 +147,7 @@ OptionTable make_option_table(MeshOptions& options) {
   let_level_bind_loop(table, options);
   mark_tolerance(table, options);
   append(table, size_rows(options.sizes));
-  append(table, domain_rows(options.sizes));
+  table.push_back(size_file_row(options.sizes));
   table.push_back(choice_row(
       {"placement",
        "The lattice along the part's faces, however they are turned (inside only), or along the "

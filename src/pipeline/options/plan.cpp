@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "hexwright/base/error.h"
 #include "hexwright/pipeline/size_plan.h"
 
 namespace hexwright {
@@ -28,7 +25,10 @@ constexpr double kMaxGrowth = 2.5;
 /// Guards of a budget that is larger than they are: the background has cells outside too.
 constexpr double kBackgroundOfHexes = 4, kRoundsOfHexes = 1.4;
 /// Budgets beyond this are alike: several times as many still fit a std::size_t.
-constexpr double kMostOfHexes = 0x1p60;
+constexpr double kMostOfHexes = 0x1p59;
+/// Of eight cells that a size asks for, one or more are meshed; few enough are no matter.
+constexpr double kSizedOfHexes = 16;
+constexpr std::size_t kFewCells = 32768;
 
 Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
   const bool is_sound = target.expected.is_known && target.diagnosis.num_boundary_edges == 0;
@@ -38,6 +38,9 @@ Budgets plan_budgets(const MeshOptions& wishes, const Target& target) {
   };
   Budgets budgets{.background = at_least(wishes.max_hexes, kBackgroundOfHexes),
                   .rounds = at_least(wishes.max_loop_hexes, kRoundsOfHexes)};
+  budgets.sized = budgets.background;
+  if (wishes.most_hexes > 0)
+    budgets.sized = std::min(budgets.background, at_least(kFewCells, kSizedOfHexes));
   if (is_sound) return budgets;
   budgets.is_shortened = true;
   budgets.rounds /= kDefectiveShare;
@@ -65,12 +68,6 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   SizePlan sizes = plan_sizes(wishes, target, context);
   plan.sizes = std::move(sizes.field);
   if (auto& sized = sizes.domain) {
-    const bool is_level_given = wishes.loop_extra_levels == 0;
-    if (wishes.sizes.size.is_given() && is_level_given && sized->level > wishes.sizing.max_level)
-      throw Error(
-          ErrorCode::BadArgument,
-          fmt::format("--size needs cells of level {}, but --max-level is {}; leave one out",
-                      sized->level, wishes.sizing.max_level));
     plan.sizing.domain = std::move(sized->domain);
     // The loop sees where that is too coarse: cells of two sizes cost more than they save.
     if (wishes.sizes.size.is_given() && wishes.fit.carve.side == Side::Inside) {
@@ -87,6 +84,7 @@ StagePlan plan(const MeshOptions& wishes, const Target& target, const Context& c
   plan.fit.tolerance = wishes.sizing.tolerance;
   if (wishes.order == 2) plan.fit.patch_verts = PatchVerts::OnSurface;
   plan.judge = plan_judge(wishes);
+  plan.judge.domain = sizes.box;
   plan.budgets = plan_budgets(wishes, target);
   if (wishes.most_hexes > 0)
     for (std::size_t* cells : {&plan.sizing.max_cells, &plan.even.max_cells})

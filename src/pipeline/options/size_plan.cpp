@@ -1,20 +1,17 @@
-// Places become distance functions, sizes a lattice.
+// Sizes become a lattice and bounds of its cells.
 #include "hexwright/pipeline/size_plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "hexwright/base/error.h"
-#include "hexwright/base/name_pattern.h"
 #include "hexwright/geometry/shape_diameter.h"
-#include "hexwright/geometry/surface_names.h"
 
 #include "geometry/tree/point_tree.h"
+#include "pipeline/options/size_places.h"
 
 namespace hexwright {
 namespace {
@@ -32,121 +29,7 @@ constexpr std::size_t kThinnest = 10;
 /// Roots along the shortest side of a box.
 constexpr int kLeastRoots = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Distance of a point, in unit coordinates, from a place, 0 in it.
-using Distance = std::function<double(const Vec3&)>;
-
-double distance_to_box(const Vec3& lo, const Vec3& hi, const Vec3& p) {
-  const Vec3 beyond = max(max(lo - p, p - hi), Vec3{});
-  return norm(beyond);
-}
-
-double distance_to_cylinder(const SizeRule& rule, const Vec3& p) {
-  const Vec3 axis = rule.b - rule.a;
-  const double length = norm(axis);
-  const Vec3 d = length > 0 ? axis / length : Vec3{0, 0, 1};
-  const double along = dot(p - rule.a, d);
-  const double off = std::max(0.0, norm(p - rule.a - d * along) - rule.radius);
-  const double beyond = std::max({0.0, -along, along - length});
-  return std::sqrt(off * off + beyond * beyond);
-}
-
-/// Names that a pattern fits, as flags; refuses a pattern that fits none.
-std::vector<char> match_names(const SizeRule& rule, const std::vector<std::string>& names,
-                              const char* what) {
-  std::vector<char> fits;
-  for (const std::string& name : names) fits.push_back(matches_pattern(rule.pattern, name));
-  if (std::find(fits.begin(), fits.end(), 1) != fits.end()) return fits;
-  std::vector<std::string> known;
-  for (const std::string& name : names)
-    if (!name.empty()) known.push_back(name);
-  if (known.empty())
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("--refine {}: the surface has no names of {}; name parts of it with "
-                            "--patch NAME=RULE",
-                            rule.text, what));
-  throw Error(ErrorCode::BadArgument, fmt::format("--refine {}: fits none of the {} {}", rule.text,
-                                                  what, fmt::join(known, ", ")));
-}
-
-Distance distance_to_tree(TriMesh triangles) {
-  const auto tree = std::make_shared<const SurfaceTree>(std::move(triangles));
-  return [tree](const Vec3& p) { return tree->distance(p); };
-}
-
-Distance distance_to_patches(const SizeRule& rule, const Target& target) {
-  const TriMesh& surface = target.surface();
-  const std::vector<char> fits = match_names(
-      rule, surface.group.empty() ? std::vector<std::string>() : surface.group_names, "patches");
-  TriMesh part;
-  part.positions = surface.positions;
-  for (TriId t : surface.tris.ids())
-    if (const std::int32_t g = surface.group[t]; g >= 0 && fits[static_cast<std::size_t>(g)])
-      part.tris.push_back(surface.tris[t]);
-  return distance_to_tree(std::move(part));
-}
-
-/// Segments as triangles without area.
-Distance distance_to_curves(const SizeRule& rule, const Target& target) {
-  const auto names = name_curves(target.surface(), target.features);
-  const std::vector<char> fits = match_names(rule, names.raw(), "curves");
-  TriMesh part;
-  part.positions = target.surface().positions;
-  for (CurveId c : target.features.curves.ids()) {
-    if (!fits[c.index()]) continue;
-    const auto& verts = target.features.curves[c].verts;
-    for (std::size_t k = 0; k + 1 < verts.size(); ++k)
-      part.tris.push_back({verts[k], verts[k + 1], verts[k + 1]});
-  }
-  return distance_to_tree(std::move(part));
-}
-
-/// In the world, where the rule's numbers count; lengths back to unit ones.
-Distance distance_in_world(const SizeRule& rule, const Similarity& frame) {
-  return [rule, frame](const Vec3& unit) {
-    const Vec3 p = frame.to_world(unit);
-    double d = 0;
-    switch (rule.where) {
-      case SizeRule::Where::Box:
-        d = distance_to_box(rule.a, rule.b, p);
-        break;
-      case SizeRule::Where::Ball:
-        d = std::max(0.0, distance(p, rule.a) - rule.radius);
-        break;
-      default:
-        d = distance_to_cylinder(rule, p);
-    }
-    return frame.length_to_unit(d);
-  };
-}
-
-Distance distance_to(const SizeRule& rule, const Target& target) {
-  switch (rule.where) {
-    case SizeRule::Where::Patch:
-      return distance_to_patches(rule, target);
-    case SizeRule::Where::Curve:
-      return distance_to_curves(rule, target);
-    case SizeRule::Where::Near:
-      return distance_to_tree(to_unit(*rule.surface, target.frame));
-    default:
-      return distance_in_world(rule, target.frame);
-  }
-}
-
-/// Cells that may come within `reach` of the place are no larger than `size`.
-SizeField::Limit limit_near(Distance distance, double size, double reach) {
-  return [distance = std::move(distance), size, reach](const Box3& cell) {
-    return distance(cell.center()) <= reach + cell.diagonal() / 2 ? size : kInfinity;
-  };
-}
-
-/// The surface, and the inside where that is meshed as well.
-Distance distance_to_object(const Target& target, Side side) {
-  return [&target, side](const Vec3& p) {
-    if (side == Side::Both && target.tree.is_inside(p)) return 0.0;
-    return target.tree.distance(p);
-  };
-}
+constexpr double kRounding = 1e-9;
 
 /// Walls of the solid, or of gaps outside, that rays at samples of the surface found.
 struct WallWidths {
@@ -197,30 +80,80 @@ double common_width(std::vector<double> widths) {
   return *at;
 }
 
+/// The least that fields ask for in the object's box, at places an eighth of it apart and at their
+/// own points; 0 = nothing.
+double least_of_fields(const SizeWishes& wishes, const Target& target) {
+  constexpr int kParts = 4;  // along each axis
+  const Vec3 part = target.tree.box().extent() / kParts;
+  double least = kInfinity;
+  for (const SizeRule& rule : wishes.rules) {
+    if (rule.where != SizeRule::Where::Field) continue;
+    const SizeField::Limit limit = limit_by_rule(rule, target);
+    for (int i = 0; i < kParts * kParts * kParts; ++i) {
+      const Vec3 lo = target.tree.box().lo + Vec3{i % kParts * part.x, i / kParts % kParts * part.y,
+                                                  i / kParts / kParts * part.z};
+      least = std::min(least, limit({lo, lo + part}));
+    }
+  }
+  return std::isfinite(least) ? std::max(least, to_unit(wishes.min_size, target)) : 0;
+}
+
+bool has_field(const SizeWishes& wishes) {
+  return std::any_of(wishes.rules.begin(), wishes.rules.end(),
+                     [](const SizeRule& rule) { return rule.where == SizeRule::Where::Field; });
+}
+
 /// The edge that a level of the lattice is to have exactly, in unit coordinates; 0 = any.
 double lattice_edge(const MeshOptions& wishes, const Target& target, const WallWidths& walls) {
   const SizeWishes& w = wishes.sizes;
-  const auto to_unit = [&](const Length& length) {
-    return length.is_share ? length.value * target.diagonal()
-                           : target.frame.length_to_unit(length.value);
-  };
-  if (w.size.is_given()) return to_unit(w.size);
-  if (w.max_size.is_given()) return to_unit(w.max_size);
-  if (!w.rules.empty()) return to_unit(w.rules.front().size);
+  if (w.size.is_given()) return to_unit(w.size, target);
+  if (w.max_size.is_given()) return to_unit(w.max_size, target);
+  for (const SizeRule& rule : w.rules)
+    if (rule.size.is_given()) return to_unit(rule.size, target);
+  if (const double least = least_of_fields(w, target); least > 0) return least;
   return w.across > 0 ? common_width(walls.widths) / w.across : 0;
+}
+
+/// A unit of lengths in the surface's.
+double in_unit(double metres, double surface_metres) {
+  if (!(surface_metres > 0))
+    throw Error(ErrorCode::BadArgument,
+                "a length has a unit, but nobody knows the surface's; give it, e.g. --unit mm");
+  return metres / surface_metres;
 }
 
 }  // namespace
 
+bool is_level_given(const MeshOptions& wishes) { return wishes.loop_extra_levels == 0; }
+
+MeshOptions resolve_units(MeshOptions options) {
+  const double unit = options.sizes.unit;
+  const auto resolve = [unit](double& value, double& metres) {
+    if (metres > 0) value *= in_unit(metres, unit);
+    metres = 0;
+  };
+  SizeWishes& w = options.sizes;
+  for (Length* length : {&w.size, &w.max_size, &w.min_size}) resolve(length->value, length->metres);
+  for (SizeRule& rule : w.rules)
+    for (Length* length : {&rule.size, &rule.distance}) resolve(length->value, length->metres);
+  if (w.margin)
+    for (Margin& margin : *w.margin) resolve(margin.value, margin.metres);
+  for (LayerSpec& spec : options.layers.specs)
+    if (spec.first.unit == LayerLength::Unit::Metre)
+      spec.first = {spec.first.value * in_unit(1, unit), LayerLength::Unit::World};
+  return options;
+}
+
 MeshOptions resolve_sizes(const MeshOptions& wishes, const TriMesh& surface) {
-  MeshOptions options = wishes;
-  const SizeWishes& sizes = wishes.sizes;
+  MeshOptions options = resolve_units(wishes);
+  const SizeWishes& sizes = options.sizes;
   if (!sizes.any() && !sizes.has_domain()) return options;
   if (surface.find_problem()) return options;  // its preparation says so
   const double diagonal = bounding_box(surface).diagonal();
   check_size_wishes(sizes, wishes.fit.carve.side, diagonal);
   options.mean_share = 0;
-  if (sizes.size.is_given() || sizes.cells > 0) options.even.transition_cost = 0;
+  if (sizes.size.is_given() || sizes.cells > 0 || has_field(sizes))
+    options.even.transition_cost = 0;
   return resolve_tolerance(std::move(options), diagonal);
 }
 
@@ -240,29 +173,41 @@ SizeField make_size_field(const MeshOptions& wishes, const Target& target,
                           const WallWidths& walls) {
   const SizeWishes& w = wishes.sizes;
   const Side side = wishes.fit.carve.side;
-  const auto to_unit = [&](const Length& length) {
-    return length.is_share ? length.value * target.diagonal()
-                           : target.frame.length_to_unit(length.value);
-  };
   SizeField field;
-  field.least_edge = to_unit(w.min_size);
+  field.least_edge = to_unit(w.min_size, target);
   field.is_exact = w.size.is_given();
   field.growth = w.growth;
-  const auto add_everywhere = [&](double size) {
-    field.limits.push_back([size](const Box3&) { return size; });
+  if (is_level_given(wishes)) field.deepest = wishes.sizing.max_level;
+  const auto add_everywhere = [&](const Length& length) {
+    field.limits.push_back([size = to_unit(length, target)](const Box3&) { return size; });
   };
-  if (w.max_size.is_given()) add_everywhere(to_unit(w.max_size));
-  if (w.size.is_given() && side == Side::Inside) add_everywhere(to_unit(w.size));
+  if (w.max_size.is_given()) add_everywhere(w.max_size);
+  if (w.size.is_given() && side == Side::Inside) add_everywhere(w.size);
   if (w.size.is_given() && side != Side::Inside)
-    field.limits.push_back(limit_near(distance_to_object(target, side), to_unit(w.size), 0));
-  for (const SizeRule& rule : w.rules)
-    field.limits.push_back(
-        limit_near(distance_to(rule, target), to_unit(rule.size), to_unit(rule.distance)));
+    field.limits.push_back(limit_at_object(target, side, to_unit(w.size, target)));
+  for (const SizeRule& rule : w.rules) field.limits.push_back(limit_by_rule(rule, target));
   if (!walls.widths.empty()) field.limits.push_back(limit_across(walls, w.across));
   return field;
 }
 
 }  // namespace
+
+void check_levels(const MeshOptions& wishes, const Target& target, double root_edge) {
+  if (!is_level_given(wishes)) return;
+  const double least = std::ldexp(root_edge, -wishes.sizing.max_level) * (1 - kRounding);
+  const auto check = [&](const Length& length, const std::string& option) {
+    const double size = to_unit(length, target);
+    if (!length.is_given() || size >= least) return;
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("{} needs cells of level {}, but --max-level is {}; leave one out", option,
+                    static_cast<int>(std::ceil(std::log2(root_edge / size) - kRounding)),
+                    wishes.sizing.max_level));
+  };
+  check(wishes.sizes.size, "--size");
+  check(wishes.sizes.max_size, "--max-size");
+  for (const SizeRule& rule : wishes.sizes.rules) check(rule.size, "--refine " + rule.text);
+}
 
 std::optional<Box3> find_domain_box(const MeshOptions& wishes, const Box3& object) {
   const SizeWishes& w = wishes.sizes;
@@ -281,35 +226,71 @@ std::optional<Box3> find_domain_box(const MeshOptions& wishes, const Box3& objec
   return box;
 }
 
+Box3 object_box(const Target& target) {
+  const Box3& unit = target.tree.box();
+  return {target.frame.to_world(unit.lo), target.frame.to_world(unit.hi)};
+}
+
 namespace {
 
-/// The lattice and the domain; absent: one root cube around the object.
-std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target& target,
-                                         const WallWidths& walls) {
-  double edge = lattice_edge(wishes, target, walls);
-  if (wishes.fit.carve.side == Side::Inside) {
-    if (edge <= 0) return {};
-    return fit_lattice(target.surface(), edge, wishes.sizing.margin);
-  }
+/// The domain around the object; absent: inside, or none was asked for.
+std::optional<Box3> choose_box(const MeshOptions& wishes, const Target& target) {
   const Box3& unit = target.tree.box();
-  const Box3 object = {target.frame.to_world(unit.lo), target.frame.to_world(unit.hi)};
-  const auto box = find_domain_box(wishes, object);
+  const auto box = find_domain_box(wishes, object_box(target));
   if (!box) return {};
   const Box3 domain = {target.frame.to_unit(box->lo), target.frame.to_unit(box->hi)};
   for (int a = 0; a < 3; ++a)
     if (domain.hi[a] <= unit.lo[a] || domain.lo[a] >= unit.hi[a])
       throw Error(ErrorCode::BadArgument,
                   "--box does not meet the object; its coordinates are those of the surface");
-  const Vec3 extent = domain.extent();
-  if (edge <= 0) edge = std::min({extent.x, extent.y, extent.z}) / kLeastRoots;
-  return fill_box(domain, edge, kLeastRoots);
+  return domain;
+}
+
+/// Inside, the lattice that goes with the surface; outside, the one that fills the box.
+std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target& target,
+                                         const WallWidths& walls, const std::optional<Box3>& box) {
+  const double edge = lattice_edge(wishes, target, walls);
+  if (wishes.fit.carve.side == Side::Inside) {
+    if (edge <= 0) return {};
+    return fit_lattice(target.surface(), edge, wishes.sizing.margin);
+  }
+  if (!box) return {};
+  const Vec3 extent = box->extent();
+  const double coarsest = std::min({extent.x, extent.y, extent.z}) / kLeastRoots;
+  return fill_box(*box, edge > 0 ? edge : coarsest, kLeastRoots);
 }
 
 }  // namespace
 
+/// How thin walls are is nobody's wish: a level that is too coarse for them binds.
+static void warn_of_thin_walls(const MeshOptions& wishes, const WallWidths& walls, double root_edge,
+                               const Context& context) {
+  if (!is_level_given(wishes) || walls.widths.empty()) return;
+  const double least = std::ldexp(root_edge, -wishes.sizing.max_level) * (1 - kRounding);
+  const auto num_thin = std::count_if(walls.widths.begin(), walls.widths.end(), [&](double width) {
+    return kWidthRoom * width / wishes.sizes.across < least;
+  });
+  if (num_thin > 0)
+    context.warn(fmt::format(
+        "--max-level {} leaves {:.1f}% of the walls with fewer cells than --across {} asks for; "
+        "raise --max-level",
+        wishes.sizing.max_level,
+        100 * static_cast<double>(num_thin) / static_cast<double>(walls.widths.size()),
+        wishes.sizes.across));
+}
+
 SizePlan plan_sizes(const MeshOptions& wishes, const Target& target, const Context& context) {
   const WallWidths walls = measure_walls(wishes, target, context);
-  return {make_size_field(wishes, target, walls), choose_domain(wishes, target, walls)};
+  SizePlan sizes;
+  sizes.field = make_size_field(wishes, target, walls);
+  sizes.box = choose_box(wishes, target);
+  sizes.domain = choose_domain(wishes, target, walls, sizes.box);
+  const double root_edge = sizes.domain
+                               ? sizes.domain->domain.frame.root_size
+                               : root_frame(target.tree.box(), wishes.sizing.margin).root_size;
+  check_levels(wishes, target, root_edge);
+  warn_of_thin_walls(wishes, walls, root_edge, context);
+  return sizes;
 }
 
 }  // namespace hexwright

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "hexwright/base/length_unit.h"
 #include "hexwright/io/set_summary.h"
 #include "hexwright/pipeline/option_names.h"
 #include "hexwright/pipeline/plan.h"
@@ -29,7 +30,7 @@ std::string to_text(const Json& json) {
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Json describe_layer_specs(const LayersOptions& options) {
-  constexpr const char* kUnits[] = {"world", "diagonal", "edge"};
+  constexpr const char* kUnits[] = {"world", "diagonal", "edge", "metre"};
   Json list = Json::array();
   for (const LayerSpec& spec : options.specs)
     list.push_back({{"pattern", spec.pattern},
@@ -41,6 +42,39 @@ Json describe_layer_specs(const LayersOptions& options) {
   return list;
 }
 
+Json describe_length(const Length& length) {
+  if (!length.is_given()) return nullptr;
+  if (length.is_share) return fmt::format("{:.6g}%", 100 * length.value);
+  return length.metres > 0
+             ? Json(fmt::format("{:.6g}{}", length.value, name_of_unit(length.metres)))
+             : Json(length.value);
+}
+
+Json describe_domain(const SizeWishes& w) {
+  if (w.box)
+    return {
+        {"box", {w.box->lo.x, w.box->lo.y, w.box->lo.z, w.box->hi.x, w.box->hi.y, w.box->hi.z}}};
+  if (!w.margin) return nullptr;
+  Json margin = Json::array();
+  for (const Margin& m : *w.margin)
+    margin.push_back(m.is_multiple ? Json(fmt::format("{:.6g}L", m.value)) : Json(m.value));
+  return {{"margin", margin}};
+}
+
+Json describe_sizes(const SizeWishes& w) {
+  Json rules = Json::array();
+  for (const SizeRule& rule : w.rules) rules.push_back(rule.text);
+  return {{"unit", name_of_unit(w.unit)},
+          {"size", describe_length(w.size)},
+          {"max_size", describe_length(w.max_size)},
+          {"min_size", describe_length(w.min_size)},
+          {"refine", rules},
+          {"growth", w.growth},
+          {"across", w.across},
+          {"cells", w.cells},
+          {"domain", describe_domain(w)}};
+}
+
 /// The surface is described as it was asked for in the end: some wishes follow from others.
 Json describe_options(const MeshOptions& o) {
   const TargetOptions target = plan_target(o);
@@ -50,6 +84,7 @@ Json describe_options(const MeshOptions& o) {
           {"gap", o.gap},
           {"sizing", name_of(kSizingNames, o.sizing.sizing)},
           {"tolerance", o.sizing.tolerance},
+          {"sizes", describe_sizes(o.sizes)},
           {"deviation_factor", o.sizing.deviation_factor},
           {"wall_factor", o.sizing.wall_factor},
           {"crease_proximity", o.sizing.crease_proximity},
@@ -71,6 +106,7 @@ Json describe_options(const MeshOptions& o) {
           {"layers", describe_layer_specs(o.layers)},
           {"layers_min_coverage", o.layers.min_coverage},
           {"mean_share", o.mean_share},
+          {"transition_cost", o.even.transition_cost},
           {"max_rounds", o.max_rounds},
           {"most_hexes", o.most_hexes},
           {"max_hexes", o.max_hexes},
@@ -105,9 +141,11 @@ Json describe_sizing(const SizingResult& s) {
 
 Json describe_edges(const MeshResult& r) {
   const EdgeLengths& e = r.edges;
-  Json edges = {{"edges", e.num_edges}, {"min", e.min}, {"median", e.median},
-                {"p95", e.high},        {"max", e.max}, {"tolerance_used", r.tolerance}};
+  Json edges = {{"edges", e.num_edges}, {"min", e.min},
+                {"median", e.median},   {"p95", e.high},
+                {"max", e.max},         {"tolerance_used", r.options.sizing.tolerance}};
   if (r.size_asked > 0) edges["asked"] = r.size_asked;
+  if (r.size_used > 0) edges["size_used"] = r.size_used;
   return edges;
 }
 
@@ -269,8 +307,8 @@ Json describe_rounds(const MeshResult& r) {
 
 }  // namespace
 
-std::string report_to_json(const MeshResult& result, const MeshOptions& options,
-                           const RunInfo& run) {
+std::string report_to_json(const MeshResult& result, const RunInfo& run) {
+  const MeshOptions& options = result.options;
   Json report = {{"program", "hexwright"},
                  {"version", HEXWRIGHT_VERSION},
                  {"compiler", __VERSION__},

@@ -158,6 +158,14 @@ Partial measure(const TriMesh& sampled, const Reference& reference, double spaci
   return total;
 }
 
+/// But for rounding.
+bool is_on_side(const Box3& box, const Vec3& p) {
+  const double room = 1e-7 * box.diagonal();
+  for (int a = 0; a < 3; ++a)
+    if (p[a] <= box.lo[a] + room || p[a] >= box.hi[a] - room) return true;
+  return false;
+}
+
 /// Zero when every sample was excused.
 double max_of(const Partial& p) { return p.weight > 0 || p.excused_weight == 0 ? p.max : 0; }
 double mean_of(const Partial& p) { return p.weight > 0 ? p.weighted_sum / p.weight : max_of(p); }
@@ -198,6 +206,8 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double boundary_spacing =
       is_far_larger ? options.spacing * boundary.box().diagonal() : spacing;
   const auto is_off_solid = [&](const Vec3& p, double) {
+    if (options.domain && is_on_side(*options.domain, p)) return true;
+    if (!options.solid_only) return false;
     const auto at = surface.closest(p);
     return !at || !bounds_solid_near(surface, at->tri, p);
   };
@@ -214,15 +224,16 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const auto counts_on_mesh = [&](const Vec3& p, double d) {
     return d <= rounding || !closes_hole(p, d);
   };
-  SampledDirection on_surface{.counts = counts_on_surface, .has_excuses = options.solid_only};
+  SampledDirection on_surface{.counts = counts_on_surface,
+                              .has_excuses = options.solid_only || options.domain};
   SampledDirection on_mesh{.counts = counts_on_mesh, .has_excuses = has_holes};
   // Patches have their middle from their sides.
   const bool has_face_nodes = mesh.mid_nodes && !mesh.mid_nodes->inner.empty();
   const bool is_bounded = options.bound_gap > 0 && !has_face_nodes;
-  Partial to_mesh =
-      measure(surface.surface(),
-              {boundary, hot, is_off_solid, options.solid_only, trusted, rounding, radius}, spacing,
-              is_bounded ? &on_surface : nullptr);
+  Partial to_mesh = measure(surface.surface(),
+                            {boundary, hot, is_off_solid, options.solid_only || options.domain,
+                             trusted, rounding, radius},
+                            spacing, is_bounded ? &on_surface : nullptr);
   Partial to_surface =
       measure(boundary.surface(), {surface, hot, closes_hole, has_holes, trusted, rounding, radius},
               boundary_spacing, is_bounded ? &on_mesh : nullptr);
