@@ -20,6 +20,7 @@ namespace hexwright::cli {
 namespace {
 
 std::atomic<bool> interrupted{false};
+std::atomic<bool> has_failed{false};  // and has said so
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 constexpr int kInterruptedCode = 4;  // as for Error{Cancelled}
@@ -30,7 +31,8 @@ constexpr suseconds_t kMicrosecondsToUnwind = 300'000;
 extern "C" void end_now(int) {
   remove_part_file();
   constexpr std::string_view kMessage = "error: cancelled\n";
-  if (write(STDERR_FILENO, kMessage.data(), kMessage.size()) < 0) _exit(kInterruptedCode);
+  if (!has_failed && write(STDERR_FILENO, kMessage.data(), kMessage.size()) < 0)
+    _exit(kInterruptedCode);
   _exit(kInterruptedCode);
 }
 
@@ -136,6 +138,7 @@ void Console::warn(std::string_view message) {
 
 void Console::fail(std::string_view message) {
   clear_progress();
+  has_failed = true;
   send(stderr, fmt::format("error: {}\n", to_one_line(message)));
 }
 

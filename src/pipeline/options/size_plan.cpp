@@ -90,8 +90,9 @@ double least_of_fields(const SizeWishes& wishes, const Target& target) {
     if (rule.where != SizeRule::Where::Field) continue;
     const SizeField::Limit limit = limit_by_rule(rule, target);
     for (int i = 0; i < kParts * kParts * kParts; ++i) {
-      const Vec3 lo = target.tree.box().lo + Vec3{i % kParts * part.x, i / kParts % kParts * part.y,
-                                                  i / kParts / kParts * part.z};
+      const int column = i / kParts;
+      const Vec3 at = {double(i % kParts), double(column % kParts), double(column / kParts)};
+      const Vec3 lo = target.tree.box().lo + Vec3{at.x * part.x, at.y * part.y, at.z * part.z};
       least = std::min(least, limit({lo, lo + part}));
     }
   }
