@@ -9,16 +9,12 @@ end of the plate. Prints one JSON object: cells; over the places 0.5 to 1.5 behi
 velocity along the plate over that of the stream, and the largest error of the friction at the wall over Blasius' own.
 {} where OpenFOAM is not installed.
 """
-import json
 import math
-import os
-import shutil
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import poiseuille
+import simple_foam
 import walls
 from poiseuille import Mesh, body, vectors, write
 
@@ -85,23 +81,6 @@ def compare(case, mesh):
             "friction_off": max(abs(friction[c] / exact[c] - 1) for c in at_wall), "iterations": int(last.name)}
 
 
-def main(arguments):
-    if not arguments:
-        sys.exit(__doc__)
-    if not shutil.which("simpleFoam"):
-        return print("{}")
-    with tempfile.TemporaryDirectory() as folder:
-        case = Path(folder)
-        (case / "constant").mkdir()
-        walls.write_obj(*walls.prism(OUTLINE, DEPTH, NAMES), case / "plate.obj")
-        subprocess.run([arguments[0], "mesh", case / "plate.obj", "-o", case / "constant/polyMesh", "--quiet", "--layers", LAYERS,
-                        *arguments[1:]], check=True)
-        mesh = Mesh(case / "constant/polyMesh")
-        write_case(case, mesh)
-        subprocess.run(["simpleFoam", "-case", case], check=True, capture_output=True,
-                       env={"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ})
-        print(json.dumps(compare(case, mesh)))
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    simple_foam.run(sys.argv[1:], __doc__, lambda path: walls.write_obj(*walls.prism(OUTLINE, DEPTH, NAMES), path), ["--layers", LAYERS],
+                    write_case, Mesh, compare)

@@ -8,15 +8,11 @@ Meshes the channel of walls.py (plates 2 apart, 4 long) with 8 layers along the 
 of the velocity over its largest value, and the relative error of the pressure gradient, both over the middle half of the
 channel. {} where OpenFOAM is not installed.
 """
-import json
-import os
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
+import simple_foam
 import walls
 
 NU, GAP = 0.1, 2.0
@@ -123,23 +119,6 @@ def compare(case, mesh):
             "gradient_off": gradient / (-12 * NU / GAP**2) - 1}
 
 
-def main(arguments):
-    if not arguments:
-        sys.exit(__doc__)
-    if not shutil.which("simpleFoam"):
-        return print("{}")
-    with tempfile.TemporaryDirectory() as folder:
-        case = Path(folder)
-        (case / "constant").mkdir()
-        walls.make("channel", case / "channel.obj")
-        subprocess.run([arguments[0], "mesh", case / "channel.obj", "-o", case / "constant/polyMesh", "--quiet", "--layers", LAYERS,
-                        *arguments[1:]], check=True)
-        mesh = Mesh(case / "constant/polyMesh")
-        write_fields(case, mesh)
-        subprocess.run(["simpleFoam", "-case", case], check=True, capture_output=True,
-                       env={"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ})
-        print(json.dumps(compare(case, mesh)))
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    simple_foam.run(sys.argv[1:], __doc__, lambda path: walls.make("channel", path), ["--layers", LAYERS],
+                    write_fields, Mesh, compare)

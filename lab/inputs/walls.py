@@ -10,13 +10,14 @@ installed, what its checkMesh says of the mesh.
 """
 import json
 import math
-import os
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).parents[2] / "tests/solver"))
+import openfoam  # noqa: E402
 
 
 def prism(outline, height, names, caps=("back", "front")):
@@ -221,24 +222,13 @@ def check_mesh(mesh, program):
     if not shutil.which("checkMesh"):
         return None
     with tempfile.TemporaryDirectory() as case:
-        (Path(case) / "system").mkdir()
         (Path(case) / "constant").mkdir()
-        head = "FoamFile\n{\n version 2.0;\n format ascii;\n class dictionary;\n object %s;\n}\n"
-        (Path(case) / "system/controlDict").write_text(
-            head % "controlDict" + "application checkMesh;\nstartTime 0;\nendTime 1;\ndeltaT 1;\nwriteInterval 1;\n")
-        (Path(case) / "system/fvSchemes").write_text(head % "fvSchemes" + "".join(
-            f"{name} {{ default none; }}\n" for name in ("ddtSchemes", "gradSchemes", "divSchemes", "laplacianSchemes",
-                                                          "interpolationSchemes", "snGradSchemes")))
-        (Path(case) / "system/fvSolution").write_text(head % "fvSolution")
         subprocess.run([program, "convert", mesh, f"{case}/constant/polyMesh"], check=True, capture_output=True)
-        places = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}  # Debian's, unless the shell has another
-        text = subprocess.run(["checkMesh", "-case", case], capture_output=True, text=True, env=places).stdout
-    number = r"([-+0-9.e]+)"
-    angle = re.search(rf"non-orthogonality Max: {number} average: {number}", text)
-    skew = re.search(rf"Max skewness = {number}", text)
-    return {"ok": "Mesh OK" in text, "non_orthogonality": float(angle[1]) if angle else None,
-            "mean_non_orthogonality": float(angle[2]) if angle else None, "skewness": float(skew[1]) if skew else None,
-            "failed": [line.strip() for line in text.splitlines() if line.strip().startswith("***")]}
+        said = openfoam.check_mesh(Path(case))
+    figures = openfoam.read_figures(said)
+    return {"ok": openfoam.is_content(said), "non_orthogonality": figures.get("non-orthogonality"),
+            "mean_non_orthogonality": figures.get("mean non-orthogonality"), "skewness": figures.get("skewness"),
+            "failed": openfoam.list_failures(said)}
 
 
 def measure(shape, mesh, report, program):
