@@ -5,11 +5,11 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <regex>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "hexwright/base/name_pattern.h"
 #include "hexwright/cad/cad_shape.h"
 #include "hexwright/geometry/surface_names.h"
 #include "hexwright/geometry/surface_tree.h"
@@ -79,10 +79,9 @@ std::string name_of(const CadModel& model, const SolidSet& solids) {
 
 /// Solids by the names that hexes' regions have. A rule that names none is left to the groups.
 void find_solids(const CadModel& model, SizeRule& rule) {
-  const std::regex pattern(rule.pattern);
   TriMesh region;
   for (const CadSolidId s : model.solids.ids())
-    if (std::regex_match(name_of(model, SolidSet{s}), pattern)) {
+    if (matches_pattern(rule.pattern, name_of(model, SolidSet{s}))) {
       TriMesh solid = surface_of(model, s);
       region.positions = std::move(solid.positions);
       for (const auto& tri : solid.tris) region.tris.push_back(tri);
