@@ -89,12 +89,12 @@ double least_of_fields(const SizeWishes& wishes, const Target& target) {
   for (const SizeRule& rule : wishes.rules) {
     if (rule.where != SizeRule::Where::Field) continue;
     const SizeField::Limit limit = limit_by_rule(rule, target);
-    for (int i = 0; i < kParts * kParts * kParts; ++i) {
-      const int column = i / kParts;
-      const Vec3 at = {double(i % kParts), double(column % kParts), double(column / kParts)};
-      const Vec3 lo = target.tree.box().lo + Vec3{at.x * part.x, at.y * part.y, at.z * part.z};
-      least = std::min(least, limit({lo, lo + part}));
-    }
+    for (int x = 0; x < kParts; ++x)
+      for (int y = 0; y < kParts; ++y)
+        for (int z = 0; z < kParts; ++z) {
+          const Vec3 lo = target.tree.box().lo + Vec3{x * part.x, y * part.y, z * part.z};
+          least = std::min(least, limit({lo, lo + part}));
+        }
   }
   return std::isfinite(least) ? std::max(least, to_unit(wishes.min_size, target)) : 0;
 }
