@@ -33,7 +33,7 @@ ROOMS = {
     "dual": ["domain", "complex", "pillows"],
     "grid": ["cells", "sets", "sizing", "pairing", "ilp"],
     "quality": ["jacobian", "topology", "distance"],
-    "io": ["text", "vtk", "surface", "sets", "solver", "mesh", "grid"],
+    "io": ["text", "vtk", "surface", "sets", "content", "field", "solver", "mesh", "grid"],
     "relax": ["kernel", "state", "passes", "joint"],
     "fit": ["carve", "curves", "sheets"],
     "polycube": ["tets", "lattice", "map", "labels"],

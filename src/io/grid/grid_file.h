@@ -7,7 +7,7 @@
 
 #include "hexwright/io/grid_io.h"
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 
 namespace hexwright::io {
 

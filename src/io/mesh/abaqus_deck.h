@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/mesh/set_names.h"
-#include "io/mesh/volume_file.h"
+#include "io/content/set_names.h"
+#include "io/content/volume_file.h"
 
 namespace hexwright::io {
 

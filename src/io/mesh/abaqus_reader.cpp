@@ -9,9 +9,9 @@
 #include <charconv>
 #include <limits>
 
+#include "io/content/foreign_labels.h"
+#include "io/content/read_mid_nodes.h"
 #include "io/mesh/abaqus_deck.h"
-#include "io/mesh/foreign_labels.h"
-#include "io/mesh/read_mid_nodes.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"

@@ -6,8 +6,8 @@
 // Volume1, Surface2, Line3 and lists physical groups as further sets: these count there.
 #include <algorithm>
 
+#include "io/content/label_collector.h"
 #include "io/mesh/abaqus_deck.h"
-#include "io/mesh/label_collector.h"
 #include "io/sets/face_table.h"
 
 namespace hexwright::io {

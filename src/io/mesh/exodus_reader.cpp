@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "io/mesh/foreign_labels.h"
-#include "io/mesh/label_collector.h"
-#include "io/mesh/read_mid_nodes.h"
+#include "io/content/foreign_labels.h"
+#include "io/content/label_collector.h"
+#include "io/content/read_mid_nodes.h"
 #include "io/sets/face_table.h"
 #include "io/text/file_bytes.h"
 #include "io/text/netcdf_file.h"

@@ -9,8 +9,8 @@
 // 2. Corners of its hexahedron and quadrilateral have our local order.
 #include <algorithm>
 
+#include "io/content/volume_file.h"
 #include "io/mesh/gmsh_order.h"
-#include "io/mesh/volume_file.h"
 #include "io/text/text_writer.h"
 
 namespace hexwright::io {

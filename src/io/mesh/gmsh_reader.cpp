@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "io/mesh/foreign_labels.h"
+#include "io/content/foreign_labels.h"
+#include "io/content/read_mid_nodes.h"
+#include "io/content/set_names.h"
 #include "io/mesh/gmsh_order.h"
-#include "io/mesh/read_mid_nodes.h"
-#include "io/mesh/set_names.h"
 #include "io/text/gmsh_file.h"
 
 namespace hexwright::io {

@@ -11,8 +11,8 @@
 #include <charconv>
 #include <limits>
 
-#include "io/mesh/set_names.h"
-#include "io/mesh/volume_file.h"
+#include "io/content/set_names.h"
+#include "io/content/volume_file.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"

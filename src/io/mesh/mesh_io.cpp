@@ -7,7 +7,7 @@
 #include "hexwright/io/set_summary.h"
 #include "hexwright/mesh/cut_hexes.h"
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 #include "io/solver/solver_formats.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"

@@ -18,8 +18,8 @@
 
 #include "hexwright/mesh/hex_adjacency.h"
 
-#include "io/mesh/foreign_labels.h"
-#include "io/mesh/set_names.h"
+#include "io/content/foreign_labels.h"
+#include "io/content/set_names.h"
 #include "io/sets/face_table.h"
 #include "io/solver/mfem_order.h"
 #include "io/surface/polygon_soup.h"

@@ -12,8 +12,8 @@
 
 #include "hexwright/base/cancel.h"
 
-#include "io/mesh/read_mid_nodes.h"
-#include "io/mesh/set_names.h"
+#include "io/content/read_mid_nodes.h"
+#include "io/content/set_names.h"
 #include "io/surface/polygon_soup.h"
 #include "io/text/file_bytes.h"
 

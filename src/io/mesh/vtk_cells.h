@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 #include "io/vtk/vtk_grid.h"
 
 namespace hexwright::io {

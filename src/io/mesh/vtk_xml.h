@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 #include "io/mesh/vtk_cells.h"
 
 namespace hexwright::io {

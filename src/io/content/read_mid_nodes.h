@@ -1,7 +1,7 @@
 // Hexes of second order, as readers find them.
 #pragma once
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 
 namespace hexwright::io {
 

@@ -11,7 +11,7 @@
 
 #include "hexwright/io/point_field.h"
 
-#include "io/mesh/tet_tree.h"
+#include "io/field/tet_tree.h"
 #include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
 #include "io/vtk/vtk_grid.h"

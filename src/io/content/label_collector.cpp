@@ -1,5 +1,5 @@
 // What the nodes of a set form is asked of the hexes around them.
-#include "io/mesh/label_collector.h"
+#include "io/content/label_collector.h"
 
 #include <algorithm>
 

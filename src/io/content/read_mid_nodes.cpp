@@ -1,5 +1,5 @@
 // Edges are shared: whichever hex names the node of an edge first settles it.
-#include "io/mesh/read_mid_nodes.h"
+#include "io/content/read_mid_nodes.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Weights by Cramer's rule.
-#include "io/mesh/tet_tree.h"
+#include "io/field/tet_tree.h"
 
 #include <utility>
 #include <vector>

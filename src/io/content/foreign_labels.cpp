@@ -1,5 +1,5 @@
 // Quads are matched with the faces of hexes by their vertices.
-#include "io/mesh/foreign_labels.h"
+#include "io/content/foreign_labels.h"
 
 #include <algorithm>
 

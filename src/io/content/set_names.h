@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 
 namespace hexwright::io {
 

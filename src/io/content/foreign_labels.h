@@ -1,7 +1,7 @@
 // Labels of other programs' files, brought to what a hex mesh promises.
 #pragma once
 
-#include "io/mesh/volume_file.h"
+#include "io/content/volume_file.h"
 
 namespace hexwright::io {
 

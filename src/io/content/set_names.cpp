@@ -1,5 +1,5 @@
 // Numbers of named sets.
-#include "io/mesh/set_names.h"
+#include "io/content/set_names.h"
 
 #include <algorithm>
 #include <charconv>
