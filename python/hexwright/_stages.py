@@ -61,8 +61,8 @@ def mesh(
     Parameters
     ----------
     surface : path, array_like of shape (n, 3), or object
-        A file (OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran, 3MF); vertices, with ``faces``; a pair of arrays; or an object with vertices and faces such
-        as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once. Where the
+        A file (OBJ, OFF, STL, PLY, VTP, VTK, Gmsh, Nastran, 3MF); vertices, with ``faces``; a pair of arrays; or an object
+        with vertices and faces such as ``trimesh.Trimesh`` and ``pyvista.PolyData``. Arrays may be of any number type and are copied once. Where the
         package was built with its reader of CAD files also STEP, IGES and BREP files, and parts of cadquery and build123d.
     faces : array_like of shape (m, 3), optional
         Vertex numbers from 0, counter-clockwise seen from outside.
@@ -152,8 +152,7 @@ def inspect(
     -------
     dict
         What ``hexwright inspect --json`` prints; ``refusal`` says why ``mesh`` would refuse the surface, and is empty when it
-        would not. ``warnings``: those of the file and of rules
-        that fit nothing too.
+        would not. ``warnings`` has those of the file and of rules that fit no face, too.
     """
     call = to_call("inspect", options, progress, threads)
     if faces is None and is_cad(surface):

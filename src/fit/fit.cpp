@@ -163,11 +163,12 @@ class Fitter {
     std::shared_ptr<FitMemory> memory;
     if (is_lifting()) memory = std::make_shared<FitMemory>(FitMemory{result, features_, report_});
     finish(result);
-    Unlifted unlifted(result.state, report_.unproven, options_.lift_goal);
-    const bool is_poor = is_lifting() && unlifted.least() < options_.lift_goal;
-    if (is_poor) memory->unlifted = std::move(unlifted);
+    if (memory && least_quality(result) < options_.lift_goal)
+      memory->unlifted = Unlifted(result.state, report_.unproven, options_.lift_goal);
+    else
+      memory.reset();
     FitResult done = conclude(std::move(result));
-    if (is_poor) done.memory = std::move(memory);
+    done.memory = std::move(memory);
     return done;
   }
 

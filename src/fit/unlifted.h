@@ -13,13 +13,12 @@ class Unlifted {
   /// `goal`: the lift's, of the least scaled Jacobian.
   Unlifted(const relax::FitState& state, std::vector<HexId> unproven, double goal);
 
-  /// Whether what was lifted from it is worse: its least is lower, where not all the others rise by
-  /// more than a little of that, and no more hexes are proven.
+  /// Whether what was lifted from it is worse: its least is lower, by more than 5% where the sum of
+  /// squared shortfalls below the goal fell, and no more hexes are proven.
   bool is_better_than(const relax::FitState& lifted, std::size_t num_unproven) const;
   /// Puts the state of the same mesh back. Its targets have to be updated.
   void restore(relax::FitState& state) const;
 
-  double least() const { return quality_.least; }
   const std::vector<HexId>& unproven() const { return unproven_; }
 
  private:

@@ -36,9 +36,11 @@ void require_valid(const HexMesh& mesh) {
 void require_known_units(const LayersOptions& options) {
   for (const LayerSpec& spec : options.specs)
     if (spec.first.unit == LayerLength::Unit::Metre)
-      throw Error(ErrorCode::BadArgument,
-                  "layers of '" + spec.pattern +
-                      "' are given in metres, but nobody knows the surface's unit");
+      throw Error(
+          ErrorCode::BadArgument,
+          "layers of '" + spec.pattern +
+              "' are given in metres, but nobody knows the surface's unit; give first or total in "
+              "the mesh's own unit, or as a share such as 0.1% or 0.05h");
 }
 
 /// Sums over the quads of each patch.

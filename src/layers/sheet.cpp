@@ -142,10 +142,7 @@ class Inserter {
     return true;
   }
 
-  PatchId patch_of(QuadId q) const {
-    const int label = skin_.label[q];
-    return label < 0 ? PatchId() : mesh_.labels.quads[static_cast<std::size_t>(label)].patch;
-  }
+  PatchId patch_of(QuadId q) const { return layers::patch_of(mesh_, skin_, q); }
 
   /// Along the quads that are no walls, away from the wall: on the border of two patches along it.
   /// Zero where all are walls.

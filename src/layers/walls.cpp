@@ -11,6 +11,7 @@
 #include "hexwright/io/set_table.h"
 
 #include "base/disjoint_sets.h"
+#include "base/words.h"
 #include "mesh/quad.h"
 
 namespace hexwright::layers {
@@ -174,8 +175,7 @@ std::vector<std::string> names_of(const SetTable& table, const NamedSet& patch) 
 }  // namespace
 
 std::string say_place(const Similarity& frame, const Vec3& unit) {
-  const Vec3 w = frame.to_world(unit);
-  return fmt::format("({:.4g} {:.4g} {:.4g})", w.x, w.y, w.z);
+  return place(frame.to_world(unit));
 }
 
 WallPatches find_wall_patches(const HexMesh& mesh, const Similarity& frame,

@@ -18,8 +18,6 @@
 namespace hexwright {
 namespace {
 
-using Run = FunctionRef<MeshResult(const MeshOptions&, const Context&)>;
-
 /// Cells shrink with the root of the tolerance, so that a step is about as many times the hexes.
 constexpr double kStep = std::numbers::sqrt2;
 constexpr double kCoarsest = 0.05;
@@ -46,21 +44,6 @@ auto rank(const MeshResult& result, double tolerance) {
                          std::max(distance_of(result), tolerance));
 }
 
-/// Absent when it would have more hexes than allowed.
-std::optional<MeshResult> try_rung(const MeshOptions& options, Run run, const Context& context) {
-  std::vector<std::string> warnings;
-  Context quiet = context;
-  quiet.on_warning = [&warnings](std::string_view message) { warnings.emplace_back(message); };
-  try {
-    MeshResult result = run(options, quiet);
-    result.warnings = std::move(warnings);
-    return result;
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::OutOfResources) throw;
-    return {};
-  }
-}
-
 bool is_near_enough(const MeshResult& result, double tolerance) {
   return result.failures.empty() && distance_of(result) <= tolerance;
 }
@@ -74,17 +57,12 @@ void judge_as_asked(const MeshOptions& options, MeshResult& result) {
     result.failures.push_back(say_beyond_gate(distance, result.options.sizing.tolerance));
 }
 
-MeshResult say_warnings(MeshResult&& result, const Context& context) {
-  for (const std::string& warning : result.warnings) context.warn(warning);
-  return std::move(result);
-}
-
 }  // namespace
 
-MeshResult search_budget(const MeshOptions& options, Run run, const Context& context) {
+MeshResult search_budget(const MeshOptions& options, MeshRun run, const Context& context) {
   const std::vector<MeshOptions> ladder = make_ladder(options);
   const double tolerance = options.sizing.tolerance;
-  std::optional<MeshResult> best, first = try_rung(ladder.front(), run, context);
+  std::optional<MeshResult> best, first = try_quietly(run, ladder.front(), context);
   if (first && (!first->is_limited || is_near_enough(*first, tolerance)))
     return say_warnings(std::move(*first), context);
   const auto is_nearer = [&](const MeshResult& next) {
@@ -92,7 +70,7 @@ MeshResult search_budget(const MeshOptions& options, Run run, const Context& con
   };
   bool fits = true;
   for (std::size_t k = ladder.size(); fits && --k > 0;) {
-    std::optional<MeshResult> next = try_rung(ladder[k], run, context);
+    std::optional<MeshResult> next = try_quietly(run, ladder[k], context);
     fits = next.has_value();
     if (fits && is_nearer(*next)) best = std::move(*next);
   }

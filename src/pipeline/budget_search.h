@@ -1,8 +1,9 @@
 // The best mesh that a number of hexes allows.
 #pragma once
 
-#include "hexwright/base/function_ref.h"
 #include "hexwright/pipeline/mesh_surface.h"
+
+#include "pipeline/quiet_run.h"
 
 namespace hexwright {
 
@@ -12,8 +13,6 @@ namespace hexwright {
 /// give a mesh that is farther off. Where the tolerance sizes nothing, levels are taken away
 /// instead. Says what was used up. `run` throws OutOfResources for more than `most_hexes`. Errors:
 /// OutOfResources when the coarsest has too many.
-MeshResult search_budget(const MeshOptions& options,
-                         FunctionRef<MeshResult(const MeshOptions&, const Context&)> run,
-                         const Context& context);
+MeshResult search_budget(const MeshOptions& options, MeshRun run, const Context& context);
 
 }  // namespace hexwright

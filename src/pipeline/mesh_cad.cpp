@@ -16,6 +16,7 @@
 #include "hexwright/mesh/hex_adjacency.h"
 
 #include "base/disjoint_sets.h"
+#include "mesh/hex_center.h"
 
 namespace hexwright {
 namespace {
@@ -58,8 +59,7 @@ SolidSet solids_in(const std::vector<HexId>& hexes, const HexMesh& mesh,
   SolidSet found;
   const std::size_t step = std::max<std::size_t>(1, hexes.size() / kProbes);
   for (std::size_t i = 0; i < hexes.size(); i += step) {
-    Vec3 center;
-    for (const Vec3& p : mesh.corners(hexes[i])) center += p / 8;
+    const Vec3 center = center_of(mesh, hexes[i]);
     for (std::size_t s = 0; s < solids.size(); ++s)
       if (!found.contains(CadSolidId(s)) && solids[s].is_inside(center))
         found.insert(CadSolidId(s));

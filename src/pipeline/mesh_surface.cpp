@@ -14,6 +14,7 @@
 #include "hexwright/quality/judge_distance.h"
 
 #include "base/stage_log.h"
+#include "mesh/hex_center.h"
 #include "pipeline/bodies_apart.h"
 #include "pipeline/budget_search.h"
 #include "pipeline/cut_by_domain.h"
@@ -92,9 +93,7 @@ void take_round(Round&& round, MeshResult& result) {
 IdVector<HexId, std::int8_t> find_levels(const HexMesh& mesh, const Grid& grid) {
   IdVector<HexId, std::int8_t> levels(mesh.num_hexes(), 0);
   parallel_for(mesh.num_hexes(), [&](std::size_t i) {
-    Vec3 center;
-    for (const Vec3& p : mesh.corners(HexId(i))) center += p / 8;
-    const CellId cell = find_leaf_at(grid, center);
+    const CellId cell = find_leaf_at(grid, center_of(mesh, HexId(i)));
     if (cell.is_valid()) levels[HexId(i)] = static_cast<std::int8_t>(grid.cells[cell].level);
   });
   return levels;
@@ -157,6 +156,10 @@ MeshResult mesh_part(const TriMesh& part, const MeshOptions& wishes, const Conte
   Context context = caller;
   context.on_warning = [&](std::string_view said) { caller.warn(whose + std::string(said)); };
   MeshResult result = mesh_target(make_target(part, plan_target(wishes), context), wishes, context);
+  // What the judge finds in it he finds in the whole.
+  std::erase_if(result.failures, [&](const std::string& failure) {
+    return std::ranges::find(result.verdict.failures, failure) != result.verdict.failures.end();
+  });
   for (std::string& failure : result.failures) failure = whose + failure;
   return result;
 }
@@ -179,9 +182,8 @@ MeshResult mesh_bodies(const Target& target, const MeshOptions& options, const C
   JudgeOptions judged = plan_judge(options);
   judged.bound_gap = kBoundOfTolerance * options.sizing.tolerance;
   result.verdict = judge(to_unit(result.mesh, target.frame), target, judged, context);
-  for (const std::string& failure : result.verdict.failures)
-    if (std::ranges::find(result.failures, failure) == result.failures.end())
-      result.failures.push_back(failure);
+  const std::vector<std::string>& found = result.verdict.failures;
+  result.failures.insert(result.failures.end(), found.begin(), found.end());
   result.verdict.to_world(target.frame);
   result.edges = measure_edges(result.mesh);
   result.options = options;

@@ -8,9 +8,8 @@
 namespace hexwright {
 namespace {
 
-std::size_t left(double all, double spent, double kept_back) {
-  return static_cast<std::size_t>(std::max(1.0, all - spent - kept_back));
-}
+constexpr double kReserve =
+    0.5;  // of its share by area, that each part is left whatever others took
 
 }  // namespace
 
@@ -26,12 +25,16 @@ SharedBudget::SharedBudget(const MeshOptions& options, const std::vector<TriMesh
     for (double& area : later_area_) area /= whole;
 }
 
-double SharedBudget::share() const { return 0.5 * later_area_[next_ + 1]; }
+std::size_t SharedBudget::left(double all, double spent) const {
+  const double later = kReserve * later_area_[next_ + 1];
+  const double own = kReserve * later_area_[next_] - later;
+  return static_cast<std::size_t>(std::max({1.0, own * all, all - spent - later * all}));
+}
 
 MeshOptions SharedBudget::allow(MeshOptions part) const {
-  part.max_hexes = left(hexes_, spent_, share() * hexes_);
-  part.max_loop_hexes = left(loop_hexes_, loop_spent_, share() * loop_hexes_);
-  part.sizing.max_cells = left(cells_, spent_, share() * cells_);
+  part.max_hexes = left(hexes_, spent_);
+  part.max_loop_hexes = left(loop_hexes_, loop_spent_);
+  part.sizing.max_cells = left(cells_, spent_);
   return part;
 }
 

@@ -8,7 +8,8 @@
 namespace hexwright {
 
 /// What the options allow for all parts together. Each part may use what is left, less half of what
-/// the later ones' areas would give them.
+/// the later ones' areas would give them; and half of what its own gives it in any case, for grids
+/// that are refined may come out larger than was allowed.
 class SharedBudget {
  public:
   SharedBudget(const MeshOptions& options, const std::vector<TriMesh>& parts);
@@ -19,7 +20,7 @@ class SharedBudget {
   void spend(const MeshResult& part);
 
  private:
-  double share() const;
+  std::size_t left(double all, double spent) const;
 
   std::vector<double> later_area_;  ///< per part: of it and all after it, share of the whole
   std::size_t next_ = 0;

@@ -16,8 +16,6 @@
 namespace hexwright {
 namespace {
 
-using Run = FunctionRef<MeshResult(const MeshOptions&, const Context&)>;
-
 /// How much longer than asked 95% of the edges may be.
 constexpr double kEdgeRoom = 1.05;
 /// Aim a little lower: edges do not follow the lattice exactly.
@@ -44,31 +42,6 @@ bool is_worse(const MeshResult& a, const MeshResult& b) {
   return a.failures.size() > b.failures.size();
 }
 
-/// Warnings of runs that are not kept are of no interest.
-MeshResult run_quietly(Run run, const MeshOptions& options, const Context& context) {
-  std::vector<std::string> warnings;
-  Context quiet = context;
-  quiet.on_warning = [&warnings](std::string_view message) { warnings.emplace_back(message); };
-  MeshResult result = run(options, quiet);
-  result.warnings = std::move(warnings);
-  return result;
-}
-
-/// The same for one try more: absent where it would take more than the budgets allow.
-std::optional<MeshResult> try_quietly(Run run, const MeshOptions& options, const Context& context) {
-  try {
-    return run_quietly(run, options, context);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::OutOfResources) throw;
-    return {};
-  }
-}
-
-MeshResult say_warnings(MeshResult&& result, const Context& context) {
-  for (const std::string& warning : result.warnings) context.warn(warning);
-  return std::move(result);
-}
-
 /// The share of the size to try after edges were too long at `too_coarse`, and short enough, if
 /// ever, at `fine`.
 double next_scale(double too_coarse, std::optional<double> fine, double too_long_by) {
@@ -76,7 +49,7 @@ double next_scale(double too_coarse, std::optional<double> fine, double too_long
   return too_coarse * std::max(kLeastStep, kEdgeMargin / too_long_by);
 }
 
-MeshResult shorten_edges(const Target& target, const MeshOptions& options, Run run,
+MeshResult shorten_edges(const Target& target, const MeshOptions& options, MeshRun run,
                          const Context& context) {
   const double share = share_of_size(options, target);
   const double longest = target.frame.length_to_world(kEdgeRoom * share * target.diagonal());
@@ -131,7 +104,7 @@ class CellSearch {
   std::pair<double, double> last_;
 };
 
-MeshResult find_cells(const Target& target, const MeshOptions& options, Run run,
+MeshResult find_cells(const Target& target, const MeshOptions& options, MeshRun run,
                       const Context& context) {
   const auto wanted = static_cast<double>(options.sizes.cells);
   const double volume = std::abs(enclosed_volume(target.surface()));
@@ -163,7 +136,7 @@ MeshResult find_cells(const Target& target, const MeshOptions& options, Run run,
 
 }  // namespace
 
-MeshResult search_sizes(const Target& target, const MeshOptions& options, Run run,
+MeshResult search_sizes(const Target& target, const MeshOptions& options, MeshRun run,
                         const Context& context) {
   if (options.sizes.cells > 0) return find_cells(target, options, run, context);
   const bool is_inside = options.fit.carve.side == Side::Inside;

@@ -1,8 +1,9 @@
 // Runs the stages until the sizes of the mesh are those that were asked for.
 #pragma once
 
-#include "hexwright/base/function_ref.h"
 #include "hexwright/pipeline/mesh_surface.h"
+
+#include "pipeline/quiet_run.h"
 
 namespace hexwright {
 
@@ -10,8 +11,7 @@ namespace hexwright {
 /// are no longer than 1.05 times what was asked for: where the boundary is oblique or curved, edges
 /// are longer than the lattice's. With a number of cells, for the size that gives about as many.
 /// Results of `run` are in world coordinates. Warns when the goal is out of reach.
-MeshResult search_sizes(const Target& target, const MeshOptions& options,
-                        FunctionRef<MeshResult(const MeshOptions&, const Context&)> run,
+MeshResult search_sizes(const Target& target, const MeshOptions& options, MeshRun run,
                         const Context& context);
 
 }  // namespace hexwright

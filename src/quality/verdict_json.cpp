@@ -62,6 +62,7 @@ Json to_json(const SurfaceDistance& d) {
   const auto upper = [&](double bound) { return d.upper ? Json(bound) : Json(nullptr); };
   return {{"max", d.max_two_way()},
           {"max_upper_bound", upper(d.upper ? d.upper->two_way() : 0)},
+          {"upper_bounds_have_excuses", d.upper ? Json(d.upper->has_excuses) : Json(nullptr)},
           {"mean", d.mean_two_way()},
           {"max_to_mesh", d.max_to_mesh},
           {"max_to_mesh_upper_bound", upper(d.upper ? d.upper->to_mesh : 0)},

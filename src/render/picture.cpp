@@ -10,6 +10,7 @@
 #include "hexwright/io/set_table.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "mesh/quad.h"
 #include "render/ambient_occlusion.h"
 #include "render/camera.h"
 #include "render/creases.h"
@@ -140,10 +141,7 @@ double letter_size(const PictureOptions& options) {
 }
 
 bool is_turned_away(const HexMesh& mesh, const HexFace& face, const Vec3& view_direction) {
-  const auto v = face_verts(mesh, face);
-  const Vec3 normal = cross(mesh.positions[v[2]] - mesh.positions[v[0]],
-                            mesh.positions[v[3]] - mesh.positions[v[1]]);
-  return dot(normal, view_direction) > 0;
+  return dot(quad_normal(mesh.positions, face_verts(mesh, face)), view_direction) > 0;
 }
 
 // Those with faces towards the eye, largest first: a legend may have room for a few only.

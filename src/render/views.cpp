@@ -7,6 +7,8 @@
 #include "hexwright/mesh/hex_adjacency.h"
 #include "hexwright/render/picture.h"
 
+#include "mesh/quad.h"
+
 namespace hexwright {
 namespace {
 
@@ -22,18 +24,16 @@ std::vector<AlongQuad> find_along_quads(const HexMesh& mesh, int axis, const Box
   const double extent = box.extent()[axis];
   std::vector<AlongQuad> quads;
   for (const HexFace& face : compute_hex_neighbors(mesh).boundary) {
-    std::array<Vec3, 4> p;
     const auto verts = face_verts(mesh, face);
-    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[verts[k]];
-    const Vec3 doubled = cross(p[2] - p[0], p[3] - p[1]);
-    const double area = 0.5 * norm(doubled);
-    if (0.5 * std::abs(doubled[axis]) <= kAlong * area) continue;
+    if (std::abs(quad_normal(mesh.positions, verts)[axis]) <= kAlong) continue;
+    const double area = quad_area(mesh.positions, verts);
     double low = box.hi[axis], high = box.lo[axis];
     for (const Vec3& corner : mesh.corners(face.hex)) {
       low = std::min(low, corner[axis]);
       high = std::max(high, corner[axis]);
     }
-    const double middle = (p[0][axis] + p[1][axis] + p[2][axis] + p[3][axis]) / 4;
+    double middle = 0;
+    for (VertId v : verts) middle += mesh.positions[v][axis] / 4;
     quads.push_back({(box.hi[axis] - middle) / extent, (high - low) / extent, area});
   }
   return quads;

@@ -146,6 +146,19 @@ TEST(PatchRules, AnAngleNamesWhatLiesBetweenSharpEdges) {
   EXPECT_NEAR(area_by_name(both.surface)["half"], 6 * 2 * std::sin(std::numbers::pi / 12), 1e-12);
 }
 
+// Two walls that meet in a right angle, with a triangle without area between them.
+TEST(PatchRules, AnAngleIsNotHiddenByATriangleWithoutArea) {
+  TriMesh walls;
+  walls.positions = {{0, 0, 0}, {0, 2, 0}, {1, 1, 0}, {0, 1, 1}, {0, 1, 0}};
+  walls.tris = {{VertId(0), VertId(2), VertId(1)},
+                {VertId(0), VertId(1), VertId(4)},
+                {VertId(4), VertId(3), VertId(0)},
+                {VertId(1), VertId(3), VertId(4)}};
+  EXPECT_EQ(apply(walls, {"floor=angle:0.5,1,0;30deg"}).num_matched[0], 2u);
+  EXPECT_EQ(apply(walls, {"floor=angle:0.5,1,0;91deg"}).num_matched[0], 4u);
+  EXPECT_EQ(apply(walls, {"wall=angle:0,1.1,0.5;30deg"}).num_matched[0], 3u);
+}
+
 TEST(PatchRules, OthersAreRefusedWithAnExample) {
   for (const char* text : {"",
                            "inlet",

@@ -102,7 +102,7 @@ TEST(LayersInAMesh, WallsWithABlockedVertexGetNoSheet) {
   EXPECT_EQ(sheet.hexes.size(), 9u);  // of zmax
   ASSERT_EQ(sheet.left_out.size(), 1u);
   EXPECT_EQ(sheet.left_out[0].patches, std::vector<PatchId>{PatchId(4)});
-  EXPECT_NE(sheet.left_out[0].why.find("(1 1 0)"), std::string::npos) << sheet.left_out[0].why;
+  EXPECT_NE(sheet.left_out[0].why.find("(1, 1, 0)"), std::string::npos) << sheet.left_out[0].why;
   EXPECT_NEAR(sheet.wall_area[PatchId(4)], 9, 1e-12);
 }
 

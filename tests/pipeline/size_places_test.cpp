@@ -367,12 +367,28 @@ TEST(SharedBudget, PartsShareWhatIsAllowed) {
   EXPECT_EQ(first.max_hexes, 750u);
   EXPECT_EQ(first.max_loop_hexes, 1500u);
   MeshResult result;
+  result.grid = split_cells(make_root_grid({}), {1});
+  ASSERT_EQ(result.grid.num_cells(), 8u);
   result.rounds.resize(2);
   result.rounds[0].num_background = 600;
   result.rounds[1].num_background = 700;
   budget.spend(result);
-  EXPECT_EQ(budget.allow(options).max_loop_hexes, 700u);
-  EXPECT_EQ(budget.allow(options).max_hexes, 1000u);
+  const MeshOptions second = budget.allow(options);
+  EXPECT_EQ(second.max_loop_hexes, 700u);
+  EXPECT_EQ(second.max_hexes, 992u);
+  EXPECT_EQ(second.sizing.max_cells, options.sizing.max_cells - 8);
+}
+
+TEST(SharedBudget, APartThatTookTooMuchLeavesTheNextItsOwn) {
+  MeshOptions options;
+  options.max_loop_hexes = 2000;
+  const TriMesh part = cube_of_ten();
+  SharedBudget budget(options, {part, part});
+  MeshResult result;
+  result.rounds.resize(1);
+  result.rounds[0].num_background = 5000;
+  budget.spend(result);
+  EXPECT_EQ(budget.allow(options).max_loop_hexes, 500u);
 }
 
 TEST(SizeWishes, AFileIsReadByTheTableOfOptions) {
@@ -391,6 +407,8 @@ TEST(SizeWishes, AFileIsReadByTheTableOfOptions) {
   EXPECT_NE(refused(R"({"across": 500})").find("500"), std::string::npos);
   EXPECT_NE(refused(R"({"cells": -1})").find("cells"), std::string::npos);
   EXPECT_NE(refused(R"({"hue": 1})").find("margin"), std::string::npos);
+  for (const char* empty : {R"({"size": []})", R"({"box": []})", R"({"margin": []})"})
+    EXPECT_NE(refused(empty), "accepted") << empty;
   EXPECT_EQ(refused(R"({"unit": "mm", "size": "2cm", "refine": [], "box": [0,0,0,1,1,1]})"),
             "accepted");
 }

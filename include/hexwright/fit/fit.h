@@ -106,7 +106,8 @@ FitResult fit(const HexMesh& background, const TriMesh& surface, const TargetOpt
 FitResult fit_unlifted(const HexMesh& background, const Target& target, const FitOptions& options,
                        const Context& context);
 /// ... and leave it within the tolerance where that raises a least scaled Jacobian below the goal;
-/// the first step's mesh where it does not.
+/// the first step's mesh where the least falls (by more than 5% where the sum of squared shortfalls
+/// below the goal falls too) and no more hexes are proven.
 /// Requires a memory, of a fit to the same target with the same options.
 FitResult lift_fit(const FitMemory& memory, const Target& target, const FitOptions& options,
                    const Context& context);

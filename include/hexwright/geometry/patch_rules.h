@@ -40,7 +40,7 @@ struct PatchRule {
 ///   normal:NX,NY,NZ;20deg                   faces this way, within an angle (default 1 degree)
 ///   angle:X,Y,Z;30deg                       all that is reached from the triangle nearest to a
 ///   point
-///                                           across edges that turn by less (default 30 degrees)
+///                                           across edges that turn by at most that (default 30)
 ///   file:PATH                               lies on the surface of a file
 /// and of a CAD file's faces, by what they are:
 ///   cylinder:r=5   sphere:r=5   torus:r=2   (the small radius)   kind:cone   face:NAME

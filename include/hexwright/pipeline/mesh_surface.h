@@ -29,9 +29,10 @@ namespace hexwright {
 
 /// Wishes only; what follows from them, and from the surface, is in the plan (pipeline/plan.h).
 struct MeshOptions {
-  TargetOptions target = {.placement = Placement::Faces,
-                          .features = {},
-                          .prepare = {.min_part = -1}};  ///< min_part < 0: the tolerance
+  TargetOptions target = {
+      .placement = Placement::Faces,
+      .features = {},
+      .prepare = {.min_part = -1, .min_gap = -1}};  ///< below 0: the tolerance, a fifth of it
   SizingOptions sizing;
   bool is_tolerance_given = false;  ///< else `sizes` may raise sizing.tolerance
   SizeWishes sizes;

@@ -61,7 +61,8 @@ struct JudgeOptions {
   double corner_tolerance = 0.0005;
   double spacing = DistanceOptions{}.spacing;  ///< of the samples that distances are measured at
   double hot_threshold = 0;  ///< samples farther than this become SurfaceDistance::hot; 0 = none
-  /// What the mesh fills, in its coordinates: what lies on its sides is no surface to be near to.
+  /// What the mesh fills, in its coordinates: what lies on its sides or beyond is no surface to be
+  /// near to.
   std::optional<Box3> domain = {};
   double bound_gap = 0;  ///< of the largest distance's upper bound (DistanceOptions); 0 = none
 };

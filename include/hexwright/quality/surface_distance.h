@@ -32,7 +32,7 @@ struct DistanceOptions {
   /// not bound the solid (overlapped parts, by the winding number on both sides); on the mesh,
   /// those where the winding number closes a hole of the surface.
   bool solid_only = true;
-  /// What the mesh fills: samples of the surface on the box's sides are left out too.
+  /// What the mesh fills: samples on the box's sides or beyond are left out too.
   std::optional<Box3> domain = {};
   /// With upper bounds of the largest distances, so near to the distances found (share of the
   /// diagonal); 0 = without. None of meshes with nodes inside of faces (MidNodes::inner).

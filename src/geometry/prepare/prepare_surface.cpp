@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <fmt/format.h>
+
 #include "hexwright/geometry/similarity.h"
 #include "hexwright/geometry/surface_tree.h"
 
@@ -218,15 +220,16 @@ std::string in_words(double value) {
   return text;
 }
 
-void describe_union(const UniteReport& united, SurfaceDiagnosis& diagnosis) {
+void describe_union(const UniteReport& united, double min_gap, SurfaceDiagnosis& diagnosis) {
   if (united.num_parts > 0)
     diagnosis.notes.push_back(std::to_string(united.num_parts) +
                               " parts that overlap or touch united into " +
                               std::to_string(united.num_results));
   if (united.num_closed > 0)
     diagnosis.warnings.push_back(
-        "gaps between parts that nearly coincide are closed, as far as they are narrower than "
-        "a fifth of the tolerance; --parts as-is keeps all walls");
+        fmt::format("gaps between parts that nearly coincide are closed, as far as they are "
+                    "narrower than {:.3g}% of the diagonal; --parts as-is keeps all walls",
+                    100 * min_gap));
   if (united.num_apart > 0)
     diagnosis.notes.push_back(std::to_string(united.num_apart) +
                               " parts that touch along edges or in points kept apart there");
@@ -305,7 +308,7 @@ PreparedSurface prepare_surface(const TriMesh& input, const PrepareOptions& opti
 
   diagnosis.warnings = describe(diagnosis, orientation, num_flat_kept);
   describe_small(small, frame, diagnosis);
-  describe_union(united, diagnosis);
+  describe_union(united, options.min_gap, diagnosis);
   if (had_slits)
     diagnosis.notes.push_back(
         "slits without width closed: walls that lie on each other are none (--parts separate keeps "

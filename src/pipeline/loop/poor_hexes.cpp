@@ -7,6 +7,7 @@
 #include "hexwright/mesh/hex_adjacency.h"
 #include "hexwright/quality/hex_quality.h"
 
+#include "mesh/hex_center.h"
 #include "mesh/quad.h"
 #include "pipeline/loop/demands.h"
 #include "pipeline/loop/hex_limit.h"
@@ -52,12 +53,6 @@ std::size_t num_unproven(const Round& round) { return round.fit.report.unproven.
 bool is_sounder(const Round& a, const Round& b) {
   if (num_unproven(a) != num_unproven(b)) return num_unproven(a) < num_unproven(b);
   return least_quality(a) > least_quality(b);
-}
-
-Vec3 center_of(const HexMesh& mesh, HexId h) {
-  Vec3 center;
-  for (const Vec3& p : mesh.corners(h)) center += p / 8;
-  return center;
 }
 
 bool is_any(const std::vector<char>& marks) {

@@ -101,8 +101,9 @@ TargetOptions plan_target(const MeshOptions& wishes) {
   if (target.prepare.min_part < 0)  // what no cell could resolve is no part
     target.prepare.min_part =
         wishes.sizing.sizing == Sizing::Deviation ? wishes.sizing.tolerance : 0.0;
-  if (wishes.sizing.sizing == Sizing::Deviation)
-    target.prepare.min_gap = kGapOfTolerance * wishes.sizing.tolerance;
+  if (target.prepare.min_gap < 0)
+    target.prepare.min_gap =
+        wishes.sizing.sizing == Sizing::Deviation ? kGapOfTolerance * wishes.sizing.tolerance : 0.0;
   return target;
 }
 

@@ -191,11 +191,14 @@ SizeField make_size_field(const MeshOptions& wishes, const Target& target,
   return field;
 }
 
-}  // namespace
+/// The edge of cells of --max-level, less rounding; 0 = it was not given.
+double least_edge(const MeshOptions& wishes, double root_edge) {
+  if (!is_level_given(wishes)) return 0;
+  return std::ldexp(root_edge, -wishes.sizing.max_level) * (1 - kRounding);
+}
 
 void check_levels(const MeshOptions& wishes, const Target& target, double root_edge) {
-  if (!is_level_given(wishes)) return;
-  const double least = std::ldexp(root_edge, -wishes.sizing.max_level) * (1 - kRounding);
+  const double least = least_edge(wishes, root_edge);
   const auto check = [&](const Length& length, const std::string& option) {
     const double size = to_unit(length, target);
     if (!length.is_given() || size >= least) return;
@@ -209,6 +212,8 @@ void check_levels(const MeshOptions& wishes, const Target& target, double root_e
   check(wishes.sizes.max_size, "--max-size");
   for (const SizeRule& rule : wishes.sizes.rules) check(rule.size, "--refine " + rule.text);
 }
+
+}  // namespace
 
 std::optional<Box3> find_domain_box(const MeshOptions& wishes, const Box3& object) {
   const SizeWishes& w = wishes.sizes;
@@ -261,13 +266,11 @@ std::optional<SizedDomain> choose_domain(const MeshOptions& wishes, const Target
   return fill_box(*box, edge > 0 ? edge : coarsest, kLeastRoots);
 }
 
-}  // namespace
-
 /// How thin walls are is nobody's wish: a level that is too coarse for them binds.
-static void warn_of_thin_walls(const MeshOptions& wishes, const WallWidths& walls, double root_edge,
-                               const Context& context) {
-  if (!is_level_given(wishes) || walls.widths.empty()) return;
-  const double least = std::ldexp(root_edge, -wishes.sizing.max_level) * (1 - kRounding);
+void warn_of_thin_walls(const MeshOptions& wishes, const WallWidths& walls, double root_edge,
+                        const Context& context) {
+  if (walls.widths.empty()) return;
+  const double least = least_edge(wishes, root_edge);
   const auto num_thin = std::count_if(walls.widths.begin(), walls.widths.end(), [&](double width) {
     return kWidthRoom * width / wishes.sizes.across < least;
   });
@@ -279,6 +282,8 @@ static void warn_of_thin_walls(const MeshOptions& wishes, const WallWidths& wall
         100 * static_cast<double>(num_thin) / static_cast<double>(walls.widths.size()),
         wishes.sizes.across));
 }
+
+}  // namespace
 
 SizePlan plan_sizes(const MeshOptions& wishes, const Target& target, const Context& context) {
   const WallWidths walls = measure_walls(wishes, target, context);

@@ -56,7 +56,8 @@ void set_wish(const OptionTable& table, const std::string& key, const Json& valu
   std::vector<std::string> known;
   for (const NamedOption& row : table) {
     if (row.name == key) {
-      if (!value.is_array() || !value.empty()) row.set(to_text(row, value));
+      const bool is_empty = value.is_array() && value.empty();
+      if (!is_empty || row.kind != OptionKind::List) row.set(to_text(row, value));
       return;
     }
     known.push_back(row.name);

@@ -16,12 +16,10 @@ std::string line(const char* label, const std::string& text) {
   return fmt::format("  {:<12} {}\n", label, text);
 }
 
-std::string at(const Vec3& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z); }
-
 std::string places(const std::vector<InspectedPlace>& list) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, list.size()); ++i)
-    text += (i > 0 ? ", " : "") + at(list[i].position);
+    text += (i > 0 ? ", " : "") + place(list[i].position);
   return text + (list.size() > 3 ? " ..." : "");
 }
 
@@ -67,7 +65,7 @@ std::string object_lines(const SurfaceInspection& s) {
 std::string inspection_to_text(const SurfaceInspection& s) {
   std::string text = line("surface", counted(s.num_tris, "triangle", "triangles") + ", " +
                                          counted(s.num_verts, "vertex", "vertices")) +
-                     line("box", at(s.box.lo) + " to " + at(s.box.hi) +
+                     line("box", place(s.box.lo) + " to " + place(s.box.hi) +
                                      fmt::format(", diagonal {:.6g}", s.box.diagonal()));
   if (!s.units_guess.empty()) text += line("", s.units_guess);
   if (s.cad) text += cad_to_text(*s.cad);

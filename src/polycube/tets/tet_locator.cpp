@@ -38,19 +38,20 @@ std::size_t count_nonpositive(const TetMesh& mesh) {
 // Each weight is the volume of the tet with one vertex replaced by p. Taken as differences from p,
 // so that the weights of a point near a vertex keep their digits far from the origin.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& t, const Vec3& p) {
-  const double volume = tet_det(t);
-  const std::array<double, 4> weight = {
-      det(t[1] - p, t[2] - p, t[3] - p) / volume, det(t[0] - p, t[3] - p, t[2] - p) / volume,
-      det(t[0] - p, t[1] - p, t[3] - p) / volume, det(t[0] - p, t[2] - p, t[1] - p) / volume};
+  const double six_volumes = tet_det(t);
+  const std::array<double, 4> weight = {det(t[1] - p, t[2] - p, t[3] - p) / six_volumes,
+                                        det(t[0] - p, t[3] - p, t[2] - p) / six_volumes,
+                                        det(t[0] - p, t[1] - p, t[3] - p) / six_volumes,
+                                        det(t[0] - p, t[2] - p, t[1] - p) / six_volumes};
   return weight;
 }
 
 std::array<Vec3, 4> barycentric_gradients(const std::array<Vec3, 4>& t) {
-  const double volume = tet_det(t);
+  const double six_volumes = tet_det(t);
   std::array<Vec3, 4> gradients;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& f = kFacets[k];
-    gradients[k] = cross(t[f[2]] - t[f[0]], t[f[1]] - t[f[0]]) / volume;
+    gradients[k] = cross(t[f[2]] - t[f[0]], t[f[1]] - t[f[0]]) / six_volumes;
   }
   return gradients;
 }

@@ -44,8 +44,8 @@ class TetLocator {
 /// positive volume.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& tet, const Vec3& p);
 
-/// Gradients of the barycentric coordinates: each is the area vector of the opposite facet over the
-/// volume. Requires a positive volume.
+/// Gradients of the barycentric coordinates: each is the area vector of the opposite facet over
+/// three times the volume. Requires a positive volume.
 std::array<Vec3, 4> barycentric_gradients(const std::array<Vec3, 4>& tet);
 
 /// Signed volume times six.

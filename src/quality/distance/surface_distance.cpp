@@ -159,7 +159,7 @@ Partial measure(const TriMesh& sampled, const Reference& reference, double spaci
 }
 
 /// But for rounding.
-bool is_on_side(const Box3& box, const Vec3& p) {
+bool is_not_inside(const Box3& box, const Vec3& p) {
   const double room = 1e-7 * box.diagonal();
   for (int a = 0; a < 3; ++a)
     if (p[a] <= box.lo[a] + room || p[a] >= box.hi[a] - room) return true;
@@ -206,7 +206,7 @@ SurfaceDistance measure_distance(const HexMesh& mesh, const SurfaceTree& surface
   const double boundary_spacing =
       is_far_larger ? options.spacing * boundary.box().diagonal() : spacing;
   const auto is_off_solid = [&](const Vec3& p, double) {
-    if (options.domain && is_on_side(*options.domain, p)) return true;
+    if (options.domain && is_not_inside(*options.domain, p)) return true;
     if (!options.solid_only) return false;
     const auto at = surface.closest(p);
     return !at || !bounds_solid_near(surface, at->tri, p);

@@ -30,7 +30,7 @@ void lift_worst(FitState& state, const FitTarget& target, const LiftOptions& opt
 
 struct AverageOptions {
   int sweeps = 3;
-  int power = 8;  ///< of 2; the larger, the more a hex is judged by its worst corner alone
+  int power = 8;  ///< a power of 2; the larger, the more a hex is judged by its worst corner alone
   double tolerance = 0.01;
   double relaxation = 1.6;  ///< see SweepOptions; what three sweeps reach took nine at 1
   double floor = 0;         ///< nowhere the least falls below both this and what it was
