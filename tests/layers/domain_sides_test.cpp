@@ -1,4 +1,4 @@
-// Sheets that end at sides of the domain, which no label names, and walls that no sheet runs under.
+// Sheets that end at sides of the domain, which no label names.
 #include <gtest/gtest.h>
 
 #include "hexwright/layers/layers.h"
@@ -88,30 +88,6 @@ TEST(DomainSides, WhereTwoRegionsEndAreNamed) {
   mesh.region_names = {"left", "right"};
   for (HexId h : mesh.hexes.ids()) mesh.region.push_back(h.index() % kCells < 2 ? 0 : 1);
   expect_left_out(mesh, tilted_target(), {"two regions", "move that side"});
-}
-
-/// Four cubes around a vertex, each beside the next but not in one plane: two of the walls there
-/// face each other's back.
-TEST(WallLimits, WallsThatNoDirectionSeesAreLeftOut) {
-  const HexMesh box = box_hex_mesh(2, 2, 2);
-  HexMesh mesh;
-  mesh.positions = box.positions;
-  for (HexId h : box.hexes.ids()) {
-    Vec3 center;
-    for (VertId v : box.hexes[h]) center += box.positions[v] / 8;
-    const std::array<bool, 3> is_high = {center.x > 1, center.y > 1, center.z > 1};
-    if (is_high[0] >= is_high[1] && is_high[1] >= is_high[2]) mesh.hexes.push_back(box.hexes[h]);
-  }
-  ASSERT_EQ(mesh.num_hexes(), 4u);
-  mesh.labels.patch_names.push_back("wall");
-  for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
-    mesh.labels.quads.push_back({face_verts(mesh, face), PatchId(0)});
-  const LayersResult result =
-      add_layers(mesh, box_target(2, 2, 2), layers_of({"*=first:0.02,growth:1,count:2"}), {});
-  EXPECT_EQ(result.mesh.num_hexes(), 4u);
-  ASSERT_EQ(result.report.patches.size(), 1u);
-  const std::string& note = result.report.patches[0].note;
-  EXPECT_NE(note.find("refine there"), std::string::npos) << note;
 }
 
 }  // namespace

@@ -45,6 +45,18 @@ inline HexMesh labelled_box(int nx, int ny, int nz) {
   return mesh;
 }
 
+/// A box of four by four by four whose patch "zmin" is half of its floor, the other half "rest".
+inline HexMesh box_whose_floor_goes_on() {
+  HexMesh mesh = labelled_box(4, 4, 4);
+  mesh.labels.patch_names.push_back("rest");
+  for (LabeledQuad& quad : mesh.labels.quads) {
+    bool is_half = quad.patch == PatchId(4);
+    for (VertId v : quad.verts) is_half &= mesh.positions[v].x <= 2;
+    if (is_half) quad.patch = PatchId(6);
+  }
+  return mesh;
+}
+
 inline Target box_target(int nx, int ny, int nz) {
   return wrap_target(box_surface({0, 0, 0}, {double(nx), double(ny), double(nz)}));
 }

@@ -72,13 +72,7 @@ TEST(LayersInAMesh, WithBothSidesAreasAreThoseOfBothWalls) {
 
 /// Every patch of a wall that is left out says why, with the place.
 TEST(LayersInAMesh, AllPatchesOfAWallThatIsLeftOutSaySo) {
-  HexMesh mesh = labelled_box(4, 4, 4);
-  mesh.labels.patch_names.push_back("rest");
-  for (LabeledQuad& quad : mesh.labels.quads) {
-    bool is_half = quad.patch == PatchId(4);
-    for (VertId v : quad.verts) is_half &= mesh.positions[v].x <= 2;
-    if (is_half) quad.patch = PatchId(6);
-  }
+  const HexMesh mesh = box_whose_floor_goes_on();
   const LayersResult result =
       add_layers(mesh, box_target(4, 4, 4), layers_of({"[xz]m..=first:0.1,growth:1,count:4"}), {});
   ASSERT_EQ(result.report.patches.size(), 4u);

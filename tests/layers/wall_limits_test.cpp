@@ -45,13 +45,7 @@ TEST(WallLimits, WishesInEdgesFollowTheEdges) {
 
 /// A patch that goes on flat leaves no room for the end of a sheet.
 TEST(WallLimits, WallsThatGoOnFlatAreLeftOut) {
-  HexMesh mesh = labelled_box(4, 4, 4);
-  mesh.labels.patch_names.push_back("rest");
-  for (LabeledQuad& quad : mesh.labels.quads) {
-    bool is_half = quad.patch == PatchId(4);
-    for (VertId v : quad.verts) is_half &= mesh.positions[v].x <= 2;
-    if (is_half) quad.patch = PatchId(6);
-  }
+  const HexMesh mesh = box_whose_floor_goes_on();
   const LayersResult result =
       add_layers(mesh, box_target(4, 4, 4), layers_of({"zmin=first:0.1,growth:1,count:4"}), {});
   EXPECT_EQ(result.mesh.num_hexes(), 64u);
@@ -59,6 +53,30 @@ TEST(WallLimits, WallsThatGoOnFlatAreLeftOut) {
   EXPECT_NE(result.report.patches[0].note.find("'rest'"), std::string::npos)
       << result.report.patches[0].note;
   EXPECT_DOUBLE_EQ(result.report.patches[0].covered, 0);
+}
+
+/// Four cubes around a vertex, each beside the next but not in one plane: two of the walls there
+/// face each other's back.
+TEST(WallLimits, WallsThatNoDirectionSeesAreLeftOut) {
+  const HexMesh box = box_hex_mesh(2, 2, 2);
+  HexMesh mesh;
+  mesh.positions = box.positions;
+  for (HexId h : box.hexes.ids()) {
+    Vec3 center;
+    for (VertId v : box.hexes[h]) center += box.positions[v] / 8;
+    const std::array<bool, 3> is_high = {center.x > 1, center.y > 1, center.z > 1};
+    if (is_high[0] >= is_high[1] && is_high[1] >= is_high[2]) mesh.hexes.push_back(box.hexes[h]);
+  }
+  ASSERT_EQ(mesh.num_hexes(), 4u);
+  mesh.labels.patch_names.push_back("wall");
+  for (const HexFace& face : compute_hex_neighbors(mesh).boundary)
+    mesh.labels.quads.push_back({face_verts(mesh, face), PatchId(0)});
+  const LayersResult result =
+      add_layers(mesh, box_target(2, 2, 2), layers_of({"*=first:0.02,growth:1,count:2"}), {});
+  EXPECT_EQ(result.mesh.num_hexes(), 4u);
+  ASSERT_EQ(result.report.patches.size(), 1u);
+  const std::string& note = result.report.patches[0].note;
+  EXPECT_NE(note.find("refine there"), std::string::npos) << note;
 }
 
 }  // namespace

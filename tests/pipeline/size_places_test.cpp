@@ -136,7 +136,7 @@ TEST(SizePlaces, TheInsideOfAFileIsARegion) {
   EXPECT_THROW(mesh_with(cube_of_ten(), {"inside:" + path.string() + "=0.5"}), Error);
 }
 
-/// Half as large on the left as on the right, in between in proportion.
+/// 0.5 on the left, 2 in the middle and beyond, in between in proportion.
 std::string write_image(const std::filesystem::path& path) {
   std::ofstream(path) << R"(<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian">
 <ImageData WholeExtent="0 2 0 1 0 1" Origin="0 0 0" Spacing="5 10 10">
@@ -154,13 +154,15 @@ TEST(SizePlaces, AFieldFromAnImageGivesSizes) {
   EXPECT_TRUE(r.failures.empty());
   EXPECT_LE(mean_volume_in(r.mesh, {{0, 0, 0}, {0.4, 10, 10}}), 0.15);  // 0.5 to 0.62 there
   EXPECT_GT(mean_volume_in(r.mesh, {{6.5, 0, 0}, {10, 10, 10}}), 2);
-  // Everywhere at most what the field says there, and at most one level finer.
+  // Everywhere at most what the field says there, and no finer than the least in a cell, and the
+  // balance, ask for.
   for (CellId c : r.grid.cells.ids()) {
     const Box3 box = cell_box(r.grid, c);
     const Vec3 p = box.center();
     if (!Box3{{0, 0, 0}, {10, 10, 10}}.contains(p)) continue;
     const double asked = p.x < 5 ? 0.5 + 0.3 * p.x : 2;
     EXPECT_LE(box.extent().x, asked * (1 + 1e-6));
+    EXPECT_GT(box.extent().x, std::min(0.5 + 0.3 * box.lo.x, 2.0) / 4) << p.x;
   }
   const MeshResult other = mesh_with(cube_of_ten(), {"field:" + image + "=other"}, 2);
   EXPECT_LE(mean_volume_in(other.mesh, {{6, 0, 0}, {10, 10, 10}}), 1.01);
