@@ -20,7 +20,8 @@ struct ExodusColumn {
   std::string type = "HEX8";
   std::vector<std::pair<std::string, Numbers>> node_sets;  ///< counted from 0
   Numbers side_elements, sides;
-  int lost_nodes = 0;  ///< how many fewer coordinates there are than the dimension says
+  bool has_triangle = false;  ///< in a block of its own
+  int lost_nodes = 0;         ///< how many fewer coordinates there are than the dimension says
 
   std::string bytes() const {
     const HexMesh mesh = test::box_hex_mesh(length, 1, 1);
@@ -38,11 +39,14 @@ struct ExodusColumn {
     Numbers connectivity;
     for (const auto& hex : mesh.hexes)
       for (VertId v : hex) connectivity.push_back(v.value() + 1);
-    const auto blocks = out.dimension("num_el_blk", 1);
-    out.ints("eb_prop1", {blocks}, Numbers{4});
+    const auto blocks = out.dimension("num_el_blk", has_triangle ? 2 : 1);
+    out.ints("eb_prop1", {blocks}, has_triangle ? Numbers{4, 5} : Numbers{4});
     out.ints("connect1",
              {out.dimension("num_el_in_blk1", mesh.num_hexes()), out.dimension("eight", 8)},
              connectivity, {"elem_type", type});
+    if (has_triangle)
+      out.ints("connect2", {out.dimension("num_el_in_blk2", 1), out.dimension("three", 3)},
+               Numbers{1, 2, 3}, {"elem_type", "TRI3"});
     if (!side_elements.empty()) {
       out.ints("ss_prop1", {out.dimension("num_side_sets", 1)}, Numbers{9});
       const auto size = out.dimension("num_side_ss1", side_elements.size());
@@ -127,6 +131,15 @@ TEST(Exodus, SidesAreTheFacesOfTheManual) {
     EXPECT_EQ(mesh.labels.quads[0].verts, face_verts(mesh, {HexId(0), lf}));
     EXPECT_EQ(make_set_table(mesh).patches[0].name, "sideset_9");
   }
+}
+
+TEST(Exodus, BlocksOfTrianglesAreLeftOut) {
+  ExodusColumn column;
+  column.has_triangle = true;
+  const TempFolder folder;
+  const HexMesh mesh = read_hex_mesh(folder.write("a.exo", column.bytes()));
+  EXPECT_EQ(mesh.num_hexes(), 3u);
+  EXPECT_TRUE(mesh.labels.quads.empty());
 }
 
 TEST(Exodus, WhatCannotBeReadIsNamedWithItsPlace) {

@@ -112,6 +112,99 @@ TEST(ForeignSurfaces, WhatCannotBeReadIsNamedWithItsPlace) {
             "cell 1: it has 2 vertices");
 }
 
+/// A strip of lines and a vertex too, whose numbers have names of their own.
+constexpr const char* kQuadraticVtk =
+    "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData 2\n"
+    "plate 1 2 int\n4 2\naxis 1 2 int\n6 2\nPOINTS 9 float\n0 0 0 2 0 0 2 2 0 0 2 0 1 0 0 2 1 0 "
+    "1 2 0 0 1 0 1 1 0\nCELLS 4 29\n8 0 1 2 3 4 5 6 7\n9 0 1 2 3 4 5 6 7 8\n6 0 1 2 4 5 8\n"
+    "2 0 1\nCELL_TYPES 4\n23\n28\n22\n3\nCELL_DATA 4\nSCALARS patch int 1\nLOOKUP_TABLE default\n"
+    "4 4 5 6\n";
+
+TEST(ForeignSurfaces, CellsOfVtkAreReadByTheirCorners) {
+  const TempFolder folder;
+  const SurfaceFile file = read_surface(folder.write("a.vtk", kQuadraticVtk));
+  EXPECT_EQ(sizes(file.mesh), (std::map<std::string, std::size_t>{{"plate", 4}, {"patch_5", 1}}));
+  EXPECT_EQ(file.mesh.group_names, (std::vector<std::string>{"plate", "patch_5"}))
+      << "what is left out has no name";
+  ASSERT_EQ(file.warnings.size(), 1u);
+  expect_in(file.warnings[0], "1 cells are no polygons");
+  expect_in(refusal("a.vtk", kQuadraticVtk, "8 0 1 2 3 4 5 6 7\n9 0 1 2 3 4 5 6 7 8",
+                    "9 0 1 2 3 4 5 6 7 8\n8 0 1 2 3 4 5 6 7"),
+            "cell 0: it has 9 vertices instead of 8");
+}
+
+TEST(ForeignSurfaces, SolidsOfGmshAreToldWhateverTheirOrder) {
+  const TempFolder folder;
+  for (const auto& [type, num_nodes] :
+       std::vector<std::pair<int, int>>{{4, 4}, {5, 8}, {12, 27}, {17, 20}}) {
+    std::string text = test::kGmshTetrahedron, solid = "6 " + std::to_string(type) + " 2 9 1";
+    for (int k = 0; k < num_nodes; ++k) solid += " 1";
+    text.replace(text.find("$Elements\n5"), 11, "$Elements\n6");
+    text.insert(text.find("$EndElements"), solid + "\n");
+    const SurfaceFile file = read_surface(folder.write("a.msh", text));
+    ASSERT_EQ(file.warnings.size(), 1u) << type;
+    expect_in(file.warnings[0], "1 elements are no triangles or quads");
+  }
+}
+
+TEST(ForeignSurfaces, SupportsOf3mfAreNotBuilt) {
+  const TempFolder folder;
+  for (const char* type : {"support", "solidsupport", "other"}) {
+    std::string text = test::k3mfModel;
+    const std::string object = "<object id=\"2\"";
+    text.replace(text.find(object), object.size(), object + " type=\"" + std::string(type) + "\"");
+    const auto zip = test::zip_of({{"a.model", text}});
+    EXPECT_EQ(read_surface(folder.write("a.3mf", zip)).mesh.num_tris(), 4u) << type;
+  }
+}
+
+// A few hundred bytes must not take all memory.
+TEST(ForeignSurfaces, CopiesOf3mfObjectsAreBounded) {
+  std::string model =
+      "<model><resources><object id=\"0\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
+      "</vertices><triangles>";
+  for (int t = 0; t < 1000; ++t) model += "<triangle v1=\"0\" v2=\"0\" v3=\"0\"/>";
+  model += "</triangles></mesh></object>";
+  for (int level = 1; level <= 4; ++level) {
+    model += "<object id=\"" + std::to_string(level) + "\"><components>";
+    for (int k = 0; k < 16; ++k)
+      model += "<component objectid=\"" + std::to_string(level - 1) + "\"/>";
+    model += "</components></object>";
+  }
+  model += "</resources><build><item objectid=\"4\"/></build></model>";
+  const std::string message = refusal("a.3mf", test::zip_of({{"3D/a.model", model}}), "PK", "PK");
+  expect_in(message, "3D/a.model: object 0: with its copies");
+  expect_in(message, "give each object once");
+}
+
+TEST(ForeignSurfaces, PositionsOf3mfMustBeFinite) {
+  std::string text = test::k3mfModel;
+  text.replace(text.find("x=\"1\""), 5, "x=\"inf\"");
+  expect_in(refusal("a.3mf", test::zip_of({{"3D/a.model", text}}), "PK", "PK"),
+            "3D/a.model: vertex 1: a coordinate is not finite");
+}
+
+TEST(ForeignSurfaces, WhatPacksA3mfFileIsSaid) {
+  const std::string zip = test::zip_of({{"3D/a.model", test::k3mfModel}});
+  const std::size_t entry = zip.find("PK\x01\x02");
+  std::string encrypted = zip, packed = zip, large = zip;
+  encrypted[entry + 8] = 1;
+  expect_in(refusal("a.3mf", encrypted, "PK", "PK"), "'3D/a.model': it is encrypted");
+  packed[entry + 10] = 14;  // LZMA
+  const std::string method = refusal("a.3mf", packed, "PK", "PK");
+  expect_in(method, "'3D/a.model': it is packed by a method other than deflate");
+  EXPECT_EQ(method.find("encrypted"), std::string::npos) << method;
+  large[entry + 10] = 8;
+  large.replace(entry + 24, 4, "\xff\xff\xff\xff");  // the size stands behind the name
+  large[entry + 30] = 12;
+  std::string extra;
+  io::store(extra, std::uint16_t{1}, io::ByteOrder::Little);
+  io::store(extra, std::uint16_t{8}, io::ByteOrder::Little);
+  io::store(extra, std::uint64_t{1} << 33, io::ByteOrder::Little);
+  large.insert(entry + 46 + std::string("3D/a.model").size(), extra);
+  expect_in(refusal("a.3mf", large, "PK", "PK"), "'3D/a.model': it has more than 4 GB");
+}
+
 TEST(ForeignSurfaces, Damaged3mfFilesAreRefusedWithThePart) {
   const TempFolder folder;
   const auto refused = [&](const std::string& find, const std::string& replace) {

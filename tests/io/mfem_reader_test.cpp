@@ -130,6 +130,14 @@ TEST(Mfem, WhatCannotBeReadIsNamedWithItsPlace) {
   EXPECT_NE(refusal("elements\n2", "elements\n1").find("expected the name of a section"),
             std::string::npos);
   EXPECT_NE(refusal("\"walls\"", "walls").find("in quotes"), std::string::npos);
+  EXPECT_NE(refusal("mfem_mesh_end", "vertices\n1\n3\n0 0 0\nmfem_mesh_end")
+                .find("the vertices come twice"),
+            std::string::npos);
+  for (const char* section : {"elements", "boundary"})
+    EXPECT_NE(refusal("mfem_mesh_end", std::string(section) + "\n1\n3 0 0 1 2\nmfem_mesh_end")
+                  .find("elements stand behind the vertices"),
+              std::string::npos)
+        << section;
   EXPECT_NE(
       refusal("12\n3\n0 0 0", "12\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_3D_P4\n")
           .find("set the mesh's curvature to order 1 or 2"),

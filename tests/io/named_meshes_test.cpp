@@ -297,6 +297,35 @@ TEST(Abaqus, SetsOfAssembliesShellsAndBarsRead) {
   EXPECT_EQ(sizes, expected);
 }
 
+// A long range is of the numbers that exist, of every kind of elements.
+TEST(Abaqus, RangesLongerThanTheFileHoldShellsAndBars) {
+  const TempFolder folder;
+  std::string text = kForeignInp;
+  text.insert(text.find("*Nset"),
+              "*Element, type=S4\n1001, 1, 2, 3, 4\n1002, 2, 9, 10, 3\n"
+              "*Element, type=B31\n2001, 4, 3\n"
+              "*Elset, elset=skin, generate\n1001, 1100, 1\n"
+              "*Elset, elset=rim, generate\n2001, 2999, 2\n");
+  const SetTable table = make_set_table(read_hex_mesh(folder.write("a.inp", text)));
+  ASSERT_EQ(table.patches.size(), 3u);
+  const auto skin = std::find_if(table.patches.begin(), table.patches.end(),
+                                 [](const NamedSet& set) { return set.name == "skin"; });
+  ASSERT_NE(skin, table.patches.end());
+  EXPECT_EQ(skin->members.size(), 2u);
+  ASSERT_EQ(table.curves.size(), 1u);
+  EXPECT_EQ(table.curves[0].name, "rim");
+}
+
+// In any case, though an edge joins the two.
+TEST(Abaqus, ASetOfNodesCalledCornersIsCorners) {
+  const TempFolder folder;
+  std::string text = kForeignInp;
+  text.replace(text.find("1, 9\n"), 5, "1, 2\n");
+  const HexMesh mesh = read_hex_mesh(folder.write("a.inp", text));
+  EXPECT_EQ(mesh.labels.corners, (std::vector{VertId(0), VertId(1)}));
+  EXPECT_TRUE(mesh.labels.edges.empty());
+}
+
 TEST(Abaqus, SetsThatNameEachOtherDoNotMultiply) {
   const TempFolder folder;
   std::string text = kForeignInp;

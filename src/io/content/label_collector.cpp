@@ -156,7 +156,7 @@ void LabelCollector::read_node_sets() {
       ++file_.num_others;
       continue;
     }
-    if (name == default_set_name(SetKind::Corners, -1) || formed.edges.empty())
+    if (capitals(name) == default_set_name(SetKind::Corners, -1) || formed.edges.empty())
       corners_.insert(verts.begin(), verts.end());
     else if (formed.on_boundary == verts.size())
       for (const auto& quad : formed.boundary) add_quad(name, quad);

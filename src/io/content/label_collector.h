@@ -24,9 +24,9 @@ class LabelCollector {
   void add_corner(VertId v) { corners_.insert(v); }
 
   /// Of vertices of hexes; others are left out. The set means
-  /// - corners, where it is called CORNERS or no two of its nodes are ends of one edge;
-  /// - nothing new, where it is called as a set of quads or edges is, whatever the case, with
-  /// "_NODES"
+  /// - corners, where it is called CORNERS, in any case, or no two of its nodes are ends of one
+  ///   edge;
+  /// - nothing new, where it is called as a set of quads or edges is, in any case, with "_NODES"
   ///   behind or without, or has all vertices of a hex;
   /// - a patch of the faces between its nodes that no set has, where these are on the boundary and
   ///   have all its nodes;

@@ -71,32 +71,33 @@ class ImageReader {
   }
 
  private:
-  std::vector<double> numbers(const pugi::xml_attribute& attribute, std::size_t count) const {
-    const std::string where = xml_.name() + ": " + attribute.name();
+  /// `otherwise`: what stands for an attribute that is not there.
+  std::vector<double> numbers(const pugi::xml_node& node, const char* name, std::size_t count,
+                              const char* otherwise = "") const {
     std::vector<double> values;
-    TextScanner scanner(attribute.value(), where);
+    TextScanner scanner(node.attribute(name).as_string(otherwise), xml_.name() + ": " + name);
     for (auto token = scanner.token(); !token.empty(); token = scanner.token())
       values.push_back(scanner.to_real(token, "a number"));
     if (values.size() != count)
       throw bad_file(xml_.name(), fmt::format("'{}' has {} numbers instead of {}; write it again",
-                                              attribute.name(), values.size(), count));
+                                              name, values.size(), count));
     return values;
   }
 
   PointLattice read_lattice(const pugi::xml_node& image, const pugi::xml_node& piece) const {
-    const auto extent = numbers(piece.attribute("Extent"), 6);
-    const auto origin = numbers(image.attribute("Origin"), 3);
-    const auto spacing = numbers(image.attribute("Spacing"), 3);
-    const auto direction = image.attribute("Direction")
-                               ? numbers(image.attribute("Direction"), 9)
-                               : std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const auto extent = numbers(piece, "Extent", 6);
+    const auto origin = numbers(image, "Origin", 3, "0 0 0");
+    const auto spacing = numbers(image, "Spacing", 3, "1 1 1");
+    const auto direction = numbers(image, "Direction", 9, "1 0 0 0 1 0 0 0 1");
     PointLattice lattice;
     lattice.origin = {origin[0], origin[1], origin[2]};
     for (std::size_t d = 0; d < 3; ++d) {
       lattice.steps[d] = Vec3{direction[d], direction[3 + d], direction[6 + d]} * spacing[d];
       const double first = extent[2 * d], last = extent[2 * d + 1];
-      if (!(last >= first && last - first < static_cast<double>(std::size_t{1} << 31)))
+      if (!(last >= first))
         throw bad_file(xml_.name(), "the image's extent ends before it begins; write it again");
+      if (last - first >= static_cast<double>(std::size_t{1} << 31))
+        throw bad_file(xml_.name(), "the image's extent is too large; write it again");
       lattice.counts[d] = static_cast<std::size_t>(last - first) + 1;
       lattice.origin += lattice.steps[d] * first;
     }

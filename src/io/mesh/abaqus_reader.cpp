@@ -267,10 +267,11 @@ class AbaqusReader {
       fail("a range has a first, a last and a step; correct this line");
     const std::int64_t first = range[0], last = range[1], step = range.size() == 3 ? range[2] : 1;
     if (step < 1 || last < first) fail("the range is not one; correct this line");
-    const auto num_known =
-        static_cast<std::int64_t>(deck_.node_to_vert.size() + deck_.element_to_hex.size());
+    std::size_t num_known = deck_.node_to_vert.size();
+    const auto elements = {&deck_.element_to_hex, &deck_.element_to_shell, &deck_.element_to_line};
+    for (const ElementIndex* kind : elements) num_known += kind->size();
     std::vector<std::int64_t> ids;
-    if ((last - first) / step <= num_known) {
+    if ((last - first) / step <= static_cast<std::int64_t>(num_known)) {
       for (std::int64_t k = 0; k <= (last - first) / step; ++k) ids.push_back(first + k * step);
       return ids;
     }
@@ -278,7 +279,8 @@ class AbaqusReader {
       if (id >= first && id <= last && (id - first) % step == 0) ids.push_back(id);
     };
     for (const auto& [id, vert] : deck_.node_to_vert) add(id);
-    for (const auto& [id, hex] : deck_.element_to_hex) add(id);
+    for (const ElementIndex* kind : elements)
+      for (const auto& [id, index] : *kind) add(id);
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return ids;

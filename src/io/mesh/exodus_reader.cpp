@@ -3,8 +3,8 @@
 // those of spheres corners. Sets without a name are known by their number: "sideset_100".
 //
 // Based on: Schoof, Yarberry, "EXODUS II: A Finite Element Data Model", SAND92-2137 (updated 2013).
-// Differs: elements in three dimensions other than hexes and tets are refused; results are passed
-// over.
+// Differs: elements in three dimensions other than hexes and tets are refused; triangles and
+// results are passed over.
 #include <algorithm>
 #include <cctype>
 
@@ -28,7 +28,7 @@ constexpr std::array<std::size_t, 7> kInnerOrder = {26, 24, 25, 20, 21, 22, 23};
 
 std::size_t our_node(std::size_t k) { return k < 20 ? kUprightEdgesFirst[k] : kInnerOrder[k - 20]; }
 
-enum class Shape { Hex, Tet, Quad, Line, Point, Other };
+enum class Shape { Hex, Tet, Face, Line, Point, Other };
 
 /// Of an element type such as "HEX8", "hexahedron", "SHELL4", "BAR2", whatever its case.
 Shape shape_of(const std::string& type) {
@@ -39,10 +39,10 @@ Shape shape_of(const std::string& type) {
     Shape shape;
   };
   constexpr Prefix kPrefixes[] = {
-      {"HEX", Shape::Hex},      {"TET", Shape::Tet},    {"QUAD", Shape::Quad},
-      {"SHELL", Shape::Quad},   {"BAR", Shape::Line},   {"BEAM", Shape::Line},
-      {"TRUSS", Shape::Line},   {"ROD", Shape::Line},   {"EDGE", Shape::Line},
-      {"SPHERE", Shape::Point}, {"POINT", Shape::Point}};
+      {"HEX", Shape::Hex},   {"TET", Shape::Tet},      {"QUAD", Shape::Face},
+      {"TRI", Shape::Face},  {"SHELL", Shape::Face},   {"BAR", Shape::Line},
+      {"BEAM", Shape::Line}, {"TRUSS", Shape::Line},   {"ROD", Shape::Line},
+      {"EDGE", Shape::Line}, {"SPHERE", Shape::Point}, {"POINT", Shape::Point}};
   for (const Prefix& prefix : kPrefixes)
     if (name.starts_with(prefix.begins)) return prefix.shape;
   return Shape::Other;
@@ -204,7 +204,7 @@ class ExodusReader {
     elements_.push_back({shape, shells_.size()});
     if (shape == Shape::Tet && size >= 4)
       file_.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
-    else if (shape == Shape::Quad && (size == 4 || size == 8 || size == 9))
+    else if (shape == Shape::Face && (size == 4 || size == 8 || size == 9))
       shells_.emplace_back(block, std::array{nodes[0], nodes[1], nodes[2], nodes[3]});
     else if (shape == Shape::Line && size >= 2)
       labels_.add_edge(block, {nodes[0], nodes[1]});
@@ -246,7 +246,7 @@ class ExodusReader {
     if (found.shape == Shape::Hex) {
       const int lf = kFaceOfSide[static_cast<std::size_t>(side) - 1];
       labels_.add_quad(set, face_verts(file_.hexes, {HexId(found.index), lf}));
-    } else if (found.shape == Shape::Quad && side <= 2) {  // front and back of a shell
+    } else if (found.shape == Shape::Face && side <= 2) {  // front and back of a shell
       labels_.add_quad(set, shells_[found.index].second);
     } else {
       ++file_.num_others;

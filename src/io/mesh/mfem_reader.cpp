@@ -115,6 +115,8 @@ class MfemReader {
   }
 
   std::vector<RawElement> read_elements() {
+    if (num_verts_ > 0)
+      scanner_.fail("elements stand behind the vertices, which use them; export the file again");
     std::vector<RawElement> elements(section_count("the number of elements", 4));
     for (RawElement& element : elements) {
       element.attribute = scanner_.integer("an attribute");
@@ -156,6 +158,7 @@ class MfemReader {
 
   /// The number of vertices, and their positions unless a section of nodes has them.
   void read_vertices() {
+    if (num_verts_ > 0) scanner_.fail("the vertices come twice; export the file again");
     num_verts_ = section_count("the number of vertices", 1);
     const std::string_view next = scanner_.peek_token();
     const bool has_positions = next != "nodes";

@@ -23,6 +23,11 @@ std::size_t num_corners(std::int64_t type) {
   }
 }
 
+/// Curves and corners of the geometry, which Gmsh writes with its surfaces.
+bool is_line_or_point(std::int64_t type) {
+  return type == GmshLine || type == GmshLine3 || type == GmshPoint;
+}
+
 /// "" for elements without a group among others that have one.
 std::string group_name(const GmshFile& file, const GmshGroup& group, bool has_physical) {
   if (group.is_physical != has_physical) return {};
@@ -35,7 +40,7 @@ std::string group_name(const GmshFile& file, const GmshGroup& group, bool has_ph
 
 PolygonSoup read_gmsh_surface(const SurfaceSource& source) {
   GmshFile file = parse_gmsh(source.bytes, source.name);
-  std::size_t num_solids = file.num_others;
+  std::size_t num_left_out = file.num_others;
   bool has_physical = false;
   for (const GmshElement& element : file.elements)
     if (num_corners(element.type) > 0) has_physical = has_physical || element.group.is_physical;
@@ -43,16 +48,18 @@ PolygonSoup read_gmsh_surface(const SurfaceSource& source) {
   soup.positions = std::move(file.positions);
   for (const GmshElement& element : file.elements) {
     const std::size_t corners = num_corners(element.type);
-    num_solids += element.type == GmshTetra || element.type == GmshHexahedron;
-    if (corners == 0) continue;
+    if (corners == 0) {
+      num_left_out += !is_line_or_point(element.type);
+      continue;
+    }
     soup.begin_group(group_name(file, element.group, has_physical));
     for (std::size_t k = 0; k < corners; ++k)
       soup.verts.push_back(file.nodes[element.first_node + k]);
     soup.end_polygon();
   }
-  if (num_solids > 0)
+  if (num_left_out > 0)
     source.warnings.push_back(
-        fmt::format("{} elements are no triangles or quads and are left out", num_solids));
+        fmt::format("{} elements are no triangles or quads and are left out", num_left_out));
   return soup;
 }
 

@@ -5,6 +5,7 @@
 // Based on: 3MF Consortium, "3D Manufacturing Format. Core Specification", version 1.3, and
 // "Production Extension" for objects in models of their own. Differs: positions stay in the file's
 // unit; colours, materials and supports are passed over.
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <map>
@@ -12,6 +13,8 @@
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
+
+#include "hexwright/base/cancel.h"
 
 #include "io/surface/polygon_soup.h"
 #include "io/text/zip_archive.h"
@@ -45,6 +48,9 @@ struct Model {
 /// Objects may hold each other many times over: no more of them are followed.
 constexpr std::size_t kMostInstances = 100'000;
 constexpr int kDeepest = 64;
+/// Nor may copies make more vertices and corners of triangles than this, and so many more for each
+/// byte of the models: about two hundred copies of a large object, thousands of a small one.
+constexpr std::size_t kMostEntries = 4'000'000, kMostEntriesPerByte = 16;
 
 class Reader3mf {
  public:
@@ -101,12 +107,12 @@ class Reader3mf {
     model = std::make_unique<Model>();
     model->path = path;
     const std::string text = archive_.read(path);
+    num_bytes_ += text.size();
     const auto parsed = model->document.load_buffer(text.data(), text.size());
-    if (!parsed) {
-      const std::string what = parsed.description();
-      models_.erase(path);
-      throw bad_element(name_, path, "the XML is damaged (" + what + "); export the file again");
-    }
+    if (!parsed)
+      throw bad_element(
+          name_, path,
+          fmt::format("the XML is damaged ({}); export the file again", parsed.description()));
     for (const auto object : model->document.child("model").child("resources").children("object"))
       model->objects[object.attribute("id").value()] = object;
     return *model;
@@ -145,40 +151,63 @@ class Reader3mf {
     if (++num_instances_ > kMostInstances || depth > kDeepest)
       fail(*object.model, "object", "objects hold each other too many times");
     const std::string_view type = object.node.attribute("type").value();
-    if (type == "support" || type == "other") return;
+    if (type == "support" || type == "solidsupport" || type == "other") return;
     std::string name = object.node.attribute("name").value();
     if (name.empty()) name = parent;
     for (const auto part : object.node.child("components").children("component"))
       add_object(find(*object.model, part), transform_of(part, *object.model).then(transform), name,
                  depth + 1);
     if (name.empty()) name = fmt::format("object_{}", object.node.attribute("id").value());
-    if (const auto mesh = object.node.child("mesh")) add_mesh(*object.model, mesh, transform, name);
+    if (!object.node.child("mesh")) return;
+    add_vertices(object, transform);
+    soup_.begin_group(name);
+    add_triangles(object, transform.is_mirror());
   }
 
-  void add_mesh(const Model& model, const pugi::xml_node& mesh, const Transform& transform,
-                const std::string& name) {
-    const std::size_t first = soup_.positions.size();
+  /// Called for every vertex and triangle.
+  void check_size(const Object& object) {
+    check_cancelled_();
+    const std::size_t num_entries = soup_.positions.size() + soup_.verts.size();
+    const std::size_t most = kMostEntries + kMostEntriesPerByte * num_bytes_;
+    if (num_entries > std::min(most, kMaxElements))
+      throw bad_element(
+          name_,
+          fmt::format("{}: object {}", object.model->path, object.node.attribute("id").value()),
+          fmt::format("with its copies the file has more than {} vertices and corners of "
+                      "triangles, far more than what is written in it; give each object once",
+                      num_entries - 1));
+  }
+
+  void add_vertices(const Object& object, const Transform& transform) {
+    first_vert_ = soup_.positions.size();
+    const auto mesh = object.node.child("mesh");
     for (const auto vertex : mesh.child("vertices").children("vertex")) {
-      const auto where = [&] { return fmt::format("vertex {}", soup_.positions.size() - first); };
-      const Vec3 p = {number<double>(model, vertex, "x", where),
-                      number<double>(model, vertex, "y", where),
-                      number<double>(model, vertex, "z", where)};
+      check_size(object);
+      const auto where = [&] {
+        return fmt::format("vertex {}", soup_.positions.size() - first_vert_);
+      };
+      const Vec3 p = {number<double>(*object.model, vertex, "x", where),
+                      number<double>(*object.model, vertex, "y", where),
+                      number<double>(*object.model, vertex, "z", where)};
+      if (!is_finite(transform.point(p)))
+        fail(*object.model, where(), "a coordinate is not finite");
       soup_.positions.push_back(transform.point(p));
-      if (!is_finite(soup_.positions.raw().back()) || soup_.positions.size() > kMaxElements)
-        fail(model, where(), "a coordinate is not finite");
     }
-    const bool is_mirror = transform.is_mirror();
-    soup_.begin_group(name);
+  }
+
+  void add_triangles(const Object& object, bool is_mirror) {
+    const std::size_t num_verts = soup_.positions.size() - first_vert_;
     std::size_t t = 0;
+    const auto mesh = object.node.child("mesh");
     for (const auto triangle : mesh.child("triangles").children("triangle")) {
+      check_size(object);
       const auto where = [&] { return fmt::format("triangle {}", t); };
       for (const char* corner :
            is_mirror ? std::array{"v1", "v3", "v2"} : std::array{"v1", "v2", "v3"}) {
-        const auto index = number<std::size_t>(model, triangle, corner, where);
-        if (index >= soup_.positions.size() - first)
-          fail(model, where(),
-               fmt::format("it uses vertex {} of {}", index, soup_.positions.size() - first));
-        soup_.verts.push_back(VertId(first + index));
+        const auto index = number<std::size_t>(*object.model, triangle, corner, where);
+        if (index >= num_verts)
+          fail(*object.model, where(), fmt::format("it uses vertex {} of {}", index, num_verts));
+        soup_.verts.push_back(VertId(first_vert_ + index));
       }
       soup_.end_polygon();
       ++t;
@@ -200,7 +229,9 @@ class Reader3mf {
   ZipArchive archive_;
   std::map<std::string, std::unique_ptr<Model>> models_;
   PolygonSoup soup_;
-  std::size_t num_instances_ = 0;
+  CancelCheck check_cancelled_;
+  std::size_t num_instances_ = 0, num_bytes_ = 0;  // of the models read so far
+  std::size_t first_vert_ = 0;                     // of the object being added
 };
 
 }  // namespace

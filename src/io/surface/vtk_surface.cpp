@@ -1,5 +1,5 @@
 // Reads surfaces of VTK's files: polygons (.vtp, legacy .vtk) and the polygons of unstructured
-// grids. A whole number per cell names its group.
+// grids, of second order by their corners. A whole number per cell names its group.
 //
 // Which array that is: the first that is there of kGroupArrays. A number is called by the array of
 // the field data that holds it and the dimension 2 (as in meshes of ours and of meshio), else by
@@ -83,9 +83,18 @@ class VtkSurface {
   }
 
   void add_polygon(std::span<const std::int64_t> cell) {
+    begin_group();
     if (cell.size() < 3) fail(fmt::format("it has {} vertices", cell.size()));
     for (const std::int64_t index : cell) soup_.verts.push_back(vert(index));
     soup_.end_polygon();
+  }
+
+  /// Of a cell of second order.
+  void add_corners(std::span<const std::int64_t> cell, std::size_t num_corners,
+                   std::size_t num_nodes) {
+    if (cell.size() != num_nodes)
+      fail(fmt::format("it has {} vertices instead of {}", cell.size(), num_nodes));
+    add_polygon(cell.first(num_corners));
   }
 
   /// Every second triangle of a strip runs the other way.
@@ -96,12 +105,17 @@ class VtkSurface {
   }
 
   void add_cell(std::span<const std::int64_t> cell) {
-    begin_group();
     switch (grid_.types[cell_]) {
       case VtkTriangle:
       case VtkPolygon:
       case VtkQuad:
         return add_polygon(cell);
+      case VtkQuadraticTriangle:
+        return add_corners(cell, 3, 6);
+      case VtkQuadraticQuad:
+        return add_corners(cell, 4, 8);
+      case VtkBiquadraticQuad:
+        return add_corners(cell, 4, 9);
       case VtkTriangleStrip:
         return add_strip(cell);
       case VtkPixel:

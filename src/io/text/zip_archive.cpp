@@ -1,6 +1,8 @@
 // The directory stands at the end of the file.
 #include "io/text/zip_archive.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -112,6 +114,7 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::string& file_name)
     names_.emplace_back(bytes.substr(at + kCentralSize, name_size));
     Entry& entry = entries_[names_.back()];
     std::size_t taken = 0;
+    entry.is_encrypted = (number16(bytes, at + 8) & 1) != 0;
     entry.method = number16(bytes, at + 10);
     entry.checksum = number32(bytes, at + 16);
     entry.size = widen(number32(bytes, at + 24), extra, taken);
@@ -141,15 +144,18 @@ std::string ZipArchive::read(const std::string& name) const {
   };
   if (found == entries_.end()) throw fail("is missing in the archive");
   const Entry& entry = found->second;
+  if (entry.is_encrypted) throw fail("is encrypted, and no password is asked for");
   const std::string_view packed = packed_bytes(entry, "'" + name + "'");
   constexpr std::size_t kStored = 0, kDeflated = 8;
   if (entry.method != kStored && entry.method != kDeflated)
-    throw fail("is packed by a method other than deflate, or encrypted");
+    throw fail("is packed by a method other than deflate");
+  constexpr std::uint64_t kMostSize = std::numeric_limits<uInt>::max();  // of zlib, at once
+  if (entry.method == kDeflated && std::max(entry.size, entry.packed_size) > kMostSize)
+    throw fail("has more than 4 GB, which is more than is unpacked");
   if (entry.size > packed.size() * kMostInflated + kMostInflated) throw fail("is damaged");
   const std::string bytes =
       entry.method == kStored ? std::string(packed) : inflate_raw(packed, entry.size);
-  const auto checksum =
-      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size()));
+  const auto checksum = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
   if (bytes.size() != entry.size || checksum != entry.checksum) throw fail("is damaged");
   return bytes;
 }

@@ -28,6 +28,7 @@ class ZipArchive {
  private:
   struct Entry {
     std::uint64_t method = 0, packed_size = 0, size = 0, header = 0, checksum = 0;
+    bool is_encrypted = false;
   };
   std::string_view packed_bytes(const Entry& entry, const std::string& where) const;
 

@@ -21,6 +21,7 @@ enum VtkCellType : std::int32_t {
   VtkWedge = 13,
   VtkPyramid = 14,
   VtkQuadraticEdge = 21,
+  VtkQuadraticTriangle = 22,
   VtkQuadraticQuad = 23,
   VtkQuadraticHexahedron = 25,
   VtkBiquadraticQuad = 28,
