@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hexwright/base/cancel.h"
 #include "hexwright/mesh/hex_adjacency.h"
 
 namespace hexwright::io {
@@ -37,8 +38,11 @@ class NodeSetReader {
   Formed form(const std::vector<VertId>& verts) {
     Formed formed;
     for (VertId v : verts) marks_[v] = kInSet;
-    for (VertId v : verts)
+    CancelCheck check_cancelled;
+    for (VertId v : verts) {
+      check_cancelled();
       for (const HexCorner& corner : vert_to_hex_[v]) visit(v, corner.hex, formed);
+    }
     for (VertId v : verts) {
       formed.on_faces += (marks_[v] & kOnFace) != 0;
       formed.on_boundary += (marks_[v] & kOnBoundary) != 0;

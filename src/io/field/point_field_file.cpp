@@ -129,29 +129,22 @@ const std::vector<Cut>& cuts() {
 }
 
 TetMesh cut_into_tets(const VtkGrid& grid, const std::string& file) {
-  if (grid.types.size() != grid.ends.size())
-    throw bad_file(file, "the numbers of cells and of types differ; write the file again");
   TetMesh mesh;
   mesh.positions = grid.positions;
-  std::size_t begin = 0;
-  for (std::size_t c = 0; c < grid.ends.size(); ++c) {
-    const auto end = static_cast<std::size_t>(grid.ends[c]);
-    if (end < begin || end > grid.connectivity.size())
-      throw bad_element(file, fmt::format("cell {}", c), "its corners end out of range");
+  for_each_cell(grid, file, [&](std::size_t c, std::span<const std::int64_t> cell) {
     const auto cut = std::find_if(cuts().begin(), cuts().end(),
                                   [&](const Cut& k) { return k.type == grid.types[c]; });
-    if (cut != cuts().end() && end - begin == cut->num_corners)
-      for (const auto& corners : cut->tets) {
-        std::array<VertId, 4> tet;
-        for (std::size_t k = 0; k < 4; ++k) {
-          tet[k] = VertId(grid.connectivity[begin + corners[k]]);
-          if (!tet[k].is_valid() || tet[k].index() >= mesh.num_verts())
-            throw bad_element(file, fmt::format("cell {}", c), "a corner is out of range");
-        }
-        mesh.tets.push_back(tet);
+    if (cut == cuts().end() || cell.size() != cut->num_corners) return;
+    for (const auto& corners : cut->tets) {
+      std::array<VertId, 4> tet;
+      for (std::size_t k = 0; k < 4; ++k) {
+        tet[k] = VertId(cell[corners[k]]);
+        if (!tet[k].is_valid() || tet[k].index() >= mesh.num_verts())
+          throw bad_element(file, fmt::format("cell {}", c), "a corner is out of range");
       }
-    begin = end;
-  }
+      mesh.tets.push_back(tet);
+    }
+  });
   if (mesh.tets.empty())
     throw bad_file(file, "there is no tet, hex, wedge or pyramid; give a grid of volume cells");
   return mesh;

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/content/foreign_labels.h"
 #include "io/content/label_collector.h"
 #include "io/content/read_mid_nodes.h"
@@ -109,8 +111,10 @@ class ExodusReader {
       if (axes[axis].size() != count)
         fail(fmt::format("variable 'coord{}'", "xyz"[axis]),
              fmt::format("it has {} numbers for {} nodes", axes[axis].size(), count));
-    for (std::size_t v = 0; v < count; ++v)
+    for (std::size_t v = 0; v < count; ++v) {
+      check_cancelled_();
       file_.positions.push_back({axes[0][v], axes[1][v], axes[2][v]});
+    }
   }
 
   /// What users call each set of a list: its name, or else its id.
@@ -178,6 +182,7 @@ class ExodusReader {
     if (shape == Shape::Other) refuse(block, type, width);
     const std::vector<double> table = in_->numbers(variable);
     for (std::size_t begin = 0; begin + width <= table.size(); begin += width) {
+      check_cancelled_();
       std::array<VertId, 27> nodes;
       for (std::size_t k = 0; k < width; ++k)
         nodes[k] =
@@ -271,6 +276,7 @@ class ExodusReader {
   LabelCollector labels_;
   MidNodeReader mid_nodes_;
   SetNames names_;
+  CancelCheck check_cancelled_;
   std::vector<Element> elements_;
   std::vector<std::pair<std::string, std::array<VertId, 4>>> shells_;  // with their blocks
 };

@@ -14,7 +14,6 @@
 #include "io/content/set_names.h"
 #include "io/content/volume_file.h"
 #include "io/surface/polygon_soup.h"
-#include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
 #include "io/text/text_writer.h"
 
@@ -66,18 +65,9 @@ class MeditReader {
       scanner_.fail("the mesh is not three-dimensional; give a volume mesh");
   }
 
-  /// How many elements follow; never more than the rest of the file can hold.
-  std::size_t section_count(const char* what, std::size_t numbers_each) {
-    const std::size_t count = scanner_.count(what);
-    if (count > scanner_.bytes_left() / (2 * numbers_each) + 1 || count > kMaxElements)
-      scanner_.fail(std::to_string(count) + " is more than the file holds for " + what +
-                    "; it is truncated or damaged, export it again");
-    return count;
-  }
-
   /// References of vertices are read over: nothing here has a use for them.
   void read_vertices() {
-    const std::size_t count = section_count("the number of vertices", 4);
+    const std::size_t count = scanner_.count_of("the number of vertices", 8);
     file_.positions.reserve(count);
     for (std::size_t v = 0; v < count; ++v) {
       Vec3 p;
@@ -111,7 +101,7 @@ class MeditReader {
   }
 
   void read_hexes() {
-    const std::size_t count = section_count("the number of hexahedra", 9);
+    const std::size_t count = scanner_.count_of("the number of hexahedra", 18);
     file_.hexes.reserve(count);
     for (std::size_t h = 0; h < count; ++h) {
       file_.hexes.push_back(read_verts<8>());
@@ -121,7 +111,7 @@ class MeditReader {
   }
 
   void read_tets() {
-    const std::size_t count = section_count("the number of tetrahedra", 5);
+    const std::size_t count = scanner_.count_of("the number of tetrahedra", 10);
     file_.tets.reserve(count);
     for (std::size_t t = 0; t < count; ++t) {
       file_.tets.push_back(read_verts<4>());
@@ -132,7 +122,7 @@ class MeditReader {
   /// Quads and edges alike: their vertices, then a reference that is the label plus one.
   template <std::size_t N, class Labeled>
   void read_labels(std::vector<Labeled>& out) {
-    const std::size_t count = section_count("the number of labelled elements", N + 1);
+    const std::size_t count = scanner_.count_of("the number of labelled elements", 2 * (N + 1));
     for (std::size_t i = 0; i < count; ++i) {
       const auto verts = read_verts<N>();
       out.push_back({verts, ref_to_label<decltype(label_of(Labeled{}))>(read_ref())});
@@ -142,7 +132,7 @@ class MeditReader {
   static CurveId label_of(const LabeledEdge& edge) { return edge.curve; }
 
   void read_points(std::vector<VertId>& out) {
-    const std::size_t count = section_count("the number of corners", 1);
+    const std::size_t count = scanner_.count_of("the number of corners", 2);
     for (std::size_t i = 0; i < count; ++i) out.push_back(read_vert());
   }
 

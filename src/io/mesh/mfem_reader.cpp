@@ -105,19 +105,10 @@ class MfemReader {
       scanner_.fail("the mesh is not one in three dimensions; give a volume mesh");
   }
 
-  /// No memory is reserved on the word of a count that the rest of the file cannot hold.
-  std::size_t section_count(const char* what, std::size_t bytes_each) {
-    const std::size_t count = scanner_.count(what);
-    if (count > scanner_.bytes_left() / bytes_each + 1 || count > kMaxElements)
-      scanner_.fail(std::to_string(count) + " is more than the file holds for " + what +
-                    "; it is truncated or damaged, export it again");
-    return count;
-  }
-
   std::vector<RawElement> read_elements() {
     if (num_verts_ > 0)
       scanner_.fail("elements stand behind the vertices, which use them; export the file again");
-    std::vector<RawElement> elements(section_count("the number of elements", 4));
+    std::vector<RawElement> elements(scanner_.count_of("the number of elements", 4));
     for (RawElement& element : elements) {
       element.attribute = scanner_.integer("an attribute");
       element.geometry = scanner_.integer("a geometry");
@@ -134,10 +125,10 @@ class MfemReader {
 
   /// "name in quotes", how many attributes, and these; over any number of lines.
   void read_sets(std::vector<AttributeSet>& sets) {
-    const std::size_t count = section_count("the number of sets", 4);
+    const std::size_t count = scanner_.count_of("the number of sets", 4);
     for (std::size_t s = 0; s < count; ++s) {
       AttributeSet set{read_name(), {}};
-      for (std::size_t left = section_count("the number of attributes", 2); left > 0; --left)
+      for (std::size_t left = scanner_.count_of("the number of attributes", 2); left > 0; --left)
         set.attributes.insert(scanner_.integer("an attribute of the set"));
       sets.push_back(std::move(set));
     }
@@ -159,7 +150,7 @@ class MfemReader {
   /// The number of vertices, and their positions unless a section of nodes has them.
   void read_vertices() {
     if (num_verts_ > 0) scanner_.fail("the vertices come twice; export the file again");
-    num_verts_ = section_count("the number of vertices", 1);
+    num_verts_ = scanner_.count_of("the number of vertices", 1);
     const std::string_view next = scanner_.peek_token();
     const bool has_positions = next != "nodes";
     if (has_positions && scanner_.integer("the dimension of positions") != 3)

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <limits>
 
-#include "hexwright/base/cancel.h"
-
 #include "io/content/read_mid_nodes.h"
 #include "io/content/set_names.h"
 #include "io/surface/polygon_soup.h"
@@ -41,26 +39,14 @@ class VtkConverter {
       throw bad_file(name_,
                      "the file holds polygons (PolyData), not an UnstructuredGrid; give a "
                      "mesh of hexes");
-    if (grid_.types.size() != grid_.ends.size())
-      throw bad_file(name_, std::to_string(grid_.ends.size()) + " cells but " +
-                                std::to_string(grid_.types.size()) +
-                                " cell types; the file is damaged, export it again");
     file_.positions = std::move(grid_.positions);
     region_ = find_cell_array({"region", "medit:ref"});
     patch_ = find_cell_array({"patch"});
     curve_ = find_cell_array({"curve"});
-    std::int64_t begin = 0;
-    CancelCheck check_cancelled;
-    for (cell_ = 0; cell_ < grid_.ends.size(); ++cell_) {
-      check_cancelled();
-      const std::int64_t end = grid_.ends[cell_];
-      if (end < begin || end > static_cast<std::int64_t>(grid_.connectivity.size()))
-        fail("its vertices lie outside the connectivity array");
-      add_cell(
-          std::span(grid_.connectivity)
-              .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
-      begin = end;
-    }
+    for_each_cell(grid_, name_, [&](std::size_t index, std::span<const std::int64_t> cell) {
+      cell_ = index;
+      add_cell(cell);
+    });
     read_field_data();
     mid_nodes_.settle(file_, name_);
     return std::move(file_);

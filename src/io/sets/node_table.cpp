@@ -100,7 +100,22 @@ NodeList NodeTable::element(SetKind kind, std::size_t member) const {
   }
 }
 
+/// By marks: a region's nodes are most of the mesh, each of several hexes.
+std::vector<VertId> NodeTable::region_nodes(const NamedSet& set) const {
+  IdVector<VertId, char> is_used(size(), 0);
+  CancelCheck check_cancelled;
+  for (std::size_t h : set.members) {
+    check_cancelled();
+    for (VertId v : hex(HexId(h))) is_used[v] = 1;
+  }
+  std::vector<VertId> nodes;
+  for (VertId v : is_used.ids())
+    if (is_used[v]) nodes.push_back(v);
+  return nodes;
+}
+
 std::vector<VertId> NodeTable::set_nodes(const NamedSet& set) const {
+  if (set.kind == SetKind::Region) return region_nodes(set);
   std::vector<VertId> nodes;
   CancelCheck check_cancelled;
   for (std::size_t i : set.members) {

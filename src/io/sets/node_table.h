@@ -66,6 +66,7 @@ class NodeTable {
 
  private:
   void number_faces();
+  std::vector<VertId> region_nodes(const NamedSet& set) const;
   VertId edge_node(EdgeId e) const { return VertId(mesh_.num_verts() + e.index()); }
   VertId node_between(VertId a, VertId b) const;
 

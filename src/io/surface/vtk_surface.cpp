@@ -27,20 +27,12 @@ class VtkSurface {
       : grid_(std::move(grid)), source_(source) {}
 
   PolygonSoup run() {
-    if (grid_.types.size() != grid_.ends.size())
-      throw bad_file(source_.name, "there is not one type per cell; export the file again");
     soup_.positions = std::move(grid_.positions);
     find_groups();
-    std::int64_t begin = 0;
-    for (cell_ = 0; cell_ < grid_.ends.size(); ++cell_) {
-      const std::int64_t end = grid_.ends[cell_];
-      if (end < begin || end > static_cast<std::int64_t>(grid_.connectivity.size()))
-        fail("its vertices lie outside the connectivity array");
-      add_cell(
-          std::span(grid_.connectivity)
-              .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
-      begin = end;
-    }
+    for_each_cell(grid_, source_.name, [&](std::size_t index, std::span<const std::int64_t> cell) {
+      cell_ = index;
+      add_cell(cell);
+    });
     if (num_others_ > 0)
       source_.warnings.push_back(fmt::format(
           "{} cells are no polygons (vertices, lines or solids) and are left out", num_others_));

@@ -5,7 +5,6 @@
 
 #include <unordered_map>
 
-#include "io/text/file_bytes.h"
 #include "io/text/text_scanner.h"
 
 namespace hexwright::io {
@@ -62,7 +61,7 @@ class GmshParser {
 
   /// "2 7 "inlet"": dimension, tag, name.
   void read_names() {
-    const std::size_t count = section_count("the number of names", 6);
+    const std::size_t count = scanner_.count_of("the number of names", 6);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t dimension = read_dimension();
       const std::int64_t tag = read_tag("a group's tag");
@@ -91,30 +90,21 @@ class GmshParser {
     return tag;
   }
 
-  /// No memory is reserved on the word of a count that the rest of the file cannot hold.
-  std::size_t section_count(const char* what, std::size_t bytes_each) {
-    const std::size_t count = scanner_.count(what);
-    if (count > scanner_.bytes_left() / bytes_each + 1 || count > kMaxElements)
-      scanner_.fail(std::to_string(count) + " is more than the file holds for " + what +
-                    "; it is truncated or damaged, export it again");
-    return count;
-  }
-
   /// Points: tag, position, groups; others: tag, box, groups, bounding entities.
   void read_entities() {
     std::array<std::size_t, 4> counts{};
-    for (std::size_t& count : counts) count = section_count("the number of entities", 8);
+    for (std::size_t& count : counts) count = scanner_.count_of("the number of entities", 8);
     for (std::size_t dimension = 0; dimension < 4; ++dimension)
       for (std::size_t i = 0; i < counts[dimension]; ++i) {
         const std::int64_t tag = read_tag("an entity's tag");
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner_.real("an entity's box");
-        const std::size_t num_groups = section_count("the number of groups", 2);
+        const std::size_t num_groups = scanner_.count_of("the number of groups", 2);
         for (std::size_t g = 0; g < num_groups; ++g) {
           const std::int64_t group = read_tag("a group's tag");
           if (g == 0) entity_to_group_[dimension][tag] = {group < 0 ? -group : group, true};
         }
         const std::size_t num_bounding =
-            dimension == 0 ? 0 : section_count("the number of bounding entities", 2);
+            dimension == 0 ? 0 : scanner_.count_of("the number of bounding entities", 2);
         for (std::size_t b = 0; b < num_bounding; ++b) scanner_.integer("a bounding entity");
       }
   }
@@ -126,7 +116,7 @@ class GmshParser {
   }
 
   void read_nodes_2() {
-    const std::size_t count = section_count("the number of nodes", 8);
+    const std::size_t count = scanner_.count_of("the number of nodes", 8);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t tag = read_tag("a node's number");
       add_node(tag, scanner_.line_point("a node"));
@@ -135,11 +125,11 @@ class GmshParser {
 
   /// Blocks: the tags first, then the positions (parameters behind them are passed over).
   void read_nodes_4() {
-    const std::size_t num_blocks = section_count("the number of blocks", 8);
+    const std::size_t num_blocks = scanner_.count_of("the number of blocks", 8);
     for (int k = 0; k < 3; ++k) scanner_.integer("a count of nodes");
     for (std::size_t b = 0; b < num_blocks; ++b) {
       for (int k = 0; k < 3; ++k) scanner_.integer("the header of a block");
-      std::vector<std::int64_t> tags(section_count("the number of nodes", 8));
+      std::vector<std::int64_t> tags(scanner_.count_of("the number of nodes", 8));
       for (std::int64_t& tag : tags) tag = read_tag("a node's number");
       for (const std::int64_t tag : tags) {
         scanner_.skip_blank();
@@ -150,11 +140,11 @@ class GmshParser {
   }
 
   void read_elements_2() {
-    const std::size_t count = section_count("the number of elements", 8);
+    const std::size_t count = scanner_.count_of("the number of elements", 8);
     for (std::size_t i = 0; i < count; ++i) {
       scanner_.integer("an element's number");
       const std::int64_t type = scanner_.integer("an element's type");
-      const std::size_t num_tags = section_count("the number of tags", 2);
+      const std::size_t num_tags = scanner_.count_of("the number of tags", 2);
       GmshGroup group;
       for (std::size_t t = 0; t < num_tags; ++t) {
         const std::int64_t tag = read_tag("a tag");
@@ -167,13 +157,13 @@ class GmshParser {
   }
 
   void read_elements_4() {
-    const std::size_t num_blocks = section_count("the number of blocks", 8);
+    const std::size_t num_blocks = scanner_.count_of("the number of blocks", 8);
     for (int k = 0; k < 3; ++k) scanner_.integer("a count of elements");
     for (std::size_t b = 0; b < num_blocks; ++b) {
       const std::size_t dimension = read_dimension();
       const std::int64_t entity = read_tag("an entity's tag");
       const std::int64_t type = scanner_.integer("an element's type");
-      const std::size_t count = section_count("the number of elements", 4);
+      const std::size_t count = scanner_.count_of("the number of elements", 4);
       const auto found = entity_to_group_[dimension].find(entity);
       const GmshGroup group =
           found == entity_to_group_[dimension].end() ? GmshGroup{entity, false} : found->second;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 
+#include "hexwright/base/cancel.h"
+
 #include "io/text/byte_reader.h"
 #include "io/text/file_bytes.h"
 #include "io/text/netcdf_file.h"
@@ -89,8 +91,11 @@ class ClassicFile : public NetcdfFile {
     const std::size_t size = kTypeSize[static_cast<std::size_t>(variable.type)];
     if (variable.type == Char) throw bad_variable(name, "holds letters instead of numbers");
     std::vector<double> values(variable.data.size() / size);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    CancelCheck check_cancelled;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      check_cancelled();
       values[i] = load_number(variable.data.data() + i * size, variable.type);
+    }
     return values;
   }
 

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "io/text/file_bytes.h"
+
 namespace hexwright::io {
 namespace {
 
@@ -75,6 +77,7 @@ std::string_view TextScanner::line_token() {
 
 /// Titles and marks are taken as they stand: '#' begins no comment here.
 std::string_view TextScanner::rest_of_line() {
+  check_cancelled_();
   const char* first = at_;
   const void* stop =
       at_ < end_ ? std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)) : nullptr;
@@ -161,6 +164,14 @@ std::size_t TextScanner::count(const char* what) {
   const std::int64_t value = integer(what);
   if (value < 0) fail(std::string(what) + " is negative; the file is damaged, export it again");
   return static_cast<std::size_t>(value);
+}
+
+std::size_t TextScanner::count_of(const char* what, std::size_t bytes_each) {
+  const std::size_t value = count(what);
+  if (value > bytes_left() / bytes_each + 1 || value > kMaxElements)
+    fail(std::to_string(value) + " is more than the file holds for " + what +
+         "; it is truncated or damaged, export it again");
+  return value;
 }
 
 /// All three on one line: a missing coordinate must not be made up from the next vertex.

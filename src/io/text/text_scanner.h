@@ -55,6 +55,9 @@ class TextScanner {
   std::int64_t integer(const char* what);
   /// An integer >= 0.
   std::size_t count(const char* what);
+  /// How many elements follow, of so many bytes each at least. More than the rest of the text holds
+  /// is an error: no memory is reserved on the word of a count.
+  std::size_t count_of(const char* what, std::size_t bytes_each);
   /// Three reals that must stand on this line.
   Vec3 line_point(const char* what);
 
