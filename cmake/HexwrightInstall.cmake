@@ -25,6 +25,8 @@ if(HEXWRIGHT_CAD)
 endif()
 if(HEXWRIGHT_NETCDF)
   install(FILES cmake/FindNetcdfLibrary.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hexwright)
+  # Where the library was found, as a hint for projects that use the package on this machine.
+  get_filename_component(hexwright_netcdf_dir "${NetcdfLibrary_INCLUDE_DIR}" DIRECTORY)
 endif()
 install(DIRECTORY include/hexwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hexwright-targets NAMESPACE hexwright::

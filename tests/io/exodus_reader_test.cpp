@@ -82,10 +82,9 @@ std::string refusal(const ExodusColumn& column) {
   return "accepted";
 }
 
-// Four nodes of each of the columns' sections: with x slowest in the numbers of vertices or not,
-// box_hex_mesh tells.
-Numbers nodes_where(int length, bool (*is_in)(const Vec3&)) {
-  const HexMesh mesh = test::box_hex_mesh(length, 1, 1);
+/// Of a column of three cubes.
+Numbers nodes_where(bool (*is_in)(const Vec3&)) {
+  const HexMesh mesh = test::box_hex_mesh(3, 1, 1);
   Numbers nodes;
   for (VertId v : mesh.positions.ids())
     if (is_in(mesh.positions[v])) nodes.push_back(v.value());
@@ -100,10 +99,10 @@ TEST(Exodus, SetsOfNodesMeanWhatTheirNodesForm) {
     return (p.x == 0) == (p.y == 0) && p.z == 1 && (p.x == 0 || p.x == 3);
   };
   const auto all = [](const Vec3&) { return true; };
-  column.node_sets = {{"start", nodes_where(3, at_start)},
-                      {"edge", nodes_where(3, along_edge)},
-                      {"pins", nodes_where(3, apart)},
-                      {"everything", nodes_where(3, all)}};
+  column.node_sets = {{"start", nodes_where(at_start)},
+                      {"edge", nodes_where(along_edge)},
+                      {"pins", nodes_where(apart)},
+                      {"everything", nodes_where(all)}};
   const TempFolder folder;
   const HexMesh mesh = read_hex_mesh(folder.write("a.exo", column.bytes()));
   const SetTable table = make_set_table(mesh);

@@ -10,8 +10,6 @@ import itertools
 import json
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import foreign_reader
 
@@ -167,7 +165,7 @@ def write_by_netcdf(check, box):
                         ("patch", "sideset_7"): 1, ("patch", "sideset_200"): 8, ("curve", "nodeset_5"): 4}, CORNERS)
 
 
-def meshio_box(box, with_labels):
+def meshio_box(box):
     """A mesh of meshio with cells of one kind per set, as it reads from Gmsh."""
     import meshio
     import numpy
@@ -180,11 +178,10 @@ def meshio_box(box, with_labels):
 
     for tag, (_, hexes) in enumerate(box.regions.items(), 1):
         add("hexahedron", [box.hexes[h] for h in hexes], tag)
-    if with_labels:
-        for tag, patch in enumerate(box.sides, 11):
-            add("quad", box.quads(patch), tag)
-        add("line", box.edges(), 21)
-        add("vertex", [[v] for v in box.pins], 31)
+    for tag, patch in enumerate(box.sides, 11):
+        add("quad", box.quads(patch), tag)
+    add("line", box.edges(), 21)
+    add("vertex", [[v] for v in box.pins], 31)
     names = {"steel": [1, 3], "copper": [2, 3], "inlet": [11, 2], "outlet": [12, 2], "wall": [13, 2], "rim": [21, 1],
              "pins": [31, 0]}
     return meshio.Mesh(box.points, cells, field_data={k: numpy.array(v) for k, v in names.items()},
@@ -194,7 +191,7 @@ def meshio_box(box, with_labels):
 def write_by_meshio(check, box):
     import meshio
 
-    mesh = meshio_box(box, True)
+    mesh = meshio_box(box)
     path = check.folder / "box.msh"
     meshio.write(path, mesh, "gmsh22", binary=False)
     check.expect(path, REGIONS, PATCHES, CURVES, CORNERS)
@@ -203,7 +200,7 @@ def write_by_meshio(check, box):
         print("netCDF4 is not installed: meshio writes no Exodus files")
         return
     # meshio names sets of nodes only; blocks of quads are patches.
-    mesh = meshio_box(box, True)
+    mesh = meshio_box(box)
     mesh.point_sets = {"rim": meshio_array(box.rim), "pins": meshio_array(box.pins)}
     mesh.cell_data, mesh.field_data = {}, {}
     mesh.cells = [block for block in mesh.cells if block.type in ("hexahedron", "quad")]
@@ -336,14 +333,8 @@ WRITERS = {"gmsh": write_by_gmsh, "meshio": write_by_meshio, "netCDF4": write_by
 
 
 def main():
-    writer, program = sys.argv[1:]
-    if not foreign_reader.is_installed("module", writer):
-        print(f"'{writer}' is not installed: skipped")
-        return foreign_reader.SKIPPED
-    with tempfile.TemporaryDirectory() as name:
-        WRITERS[writer](Checker(program, Path(name)), Box())
-    print(f"what {writer} writes is read with its sets")
-    return 0
+    return foreign_reader.run_writers(lambda writer, *where: WRITERS[writer](Checker(*where), Box()),
+                                      "what {} writes is read with its sets")
 
 
 if __name__ == "__main__":

@@ -37,3 +37,15 @@ def run(readers, done):
         read(Path(name), json.loads((Path(name) / "samples.json").read_text()))
     print(f"{reader} {done}")
     return 0
+
+
+def run_writers(write, done):
+    """Arguments: WRITER HEXWRIGHT_PROGRAM. `write`: function of the writer's name, the program and a folder."""
+    writer, program = sys.argv[1:]
+    if not is_installed("module", writer):
+        print(f"'{writer}' is not installed: skipped")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as name:
+        write(writer, program, Path(name))
+    print(done.format(writer))
+    return 0

@@ -8,6 +8,7 @@
 
 #include "io/surface_samples.h"
 #include "io/temp_folder.h"
+#include "mesh/tri_measures.h"
 
 namespace hexwright {
 namespace {
@@ -20,15 +21,6 @@ std::map<std::string, std::size_t> sizes(const TriMesh& surface) {
   for (TriId t : surface.tris.ids())
     ++found[surface.group.empty() ? "" : surface.group_names[std::size_t(surface.group[t])]];
   return found;
-}
-
-double volume(const TriMesh& surface) {
-  double sum = 0;
-  for (TriId t : surface.tris.ids()) {
-    const auto p = surface.corners(t);
-    sum += dot(p[0], cross(p[1], p[2])) / 6;
-  }
-  return sum;
 }
 
 std::string refusal(const std::string& name, std::string text, const std::string& find,
@@ -61,7 +53,7 @@ TEST(ForeignSurfaces, NamesOfEveryFormatArrive) {
            {"a.bdf", test::kNastranTetrahedron, {{"base", 1}, {"roof", 3}}}}) {
     const SurfaceFile file = read_surface(folder.write(name, text));
     EXPECT_EQ(sizes(file.mesh), expected) << name;
-    EXPECT_NEAR(volume(file.mesh), 1.0 / 6, 1e-12) << name;
+    EXPECT_NEAR(enclosed_volume(file.mesh), 1.0 / 6, 1e-12) << name;
     EXPECT_TRUE(file.warnings.empty()) << name << ": " << file.warnings[0];
   }
 }
@@ -84,7 +76,7 @@ TEST(ForeignSurfaces, ObjectsOf3mfAreWhereTheyAreBuilt) {
   const std::string zip = test::zip_of({{"3D/a.model", test::k3mfModel}});
   const SurfaceFile file = read_surface(folder.write("a.3mf", zip));
   EXPECT_EQ(sizes(file.mesh), (std::map<std::string, std::size_t>{{"bolt", 8}}));
-  EXPECT_NEAR(volume(file.mesh), 2.0 / 6, 1e-12) << "a mirrored object is turned outwards";
+  EXPECT_NEAR(enclosed_volume(file.mesh), 2.0 / 6, 1e-12) << "a mirrored object is turned outwards";
   EXPECT_EQ(bounding_box(file.mesh).hi.x, 9);
   std::string unnamed = test::k3mfModel;
   unnamed.replace(unnamed.find(" name=\"bolt\""), 12, "");

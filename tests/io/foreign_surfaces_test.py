@@ -8,8 +8,6 @@ x = 0 is the inlet, x = 2 the outlet and all else the wall. `hexwright inspect` 
 import json
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import foreign_reader
 
@@ -195,14 +193,8 @@ WRITERS = {"vtkmodules": write_by_vtk, "gmsh": write_by_gmsh, "pyNastran": write
 
 
 def main():
-    writer, program = sys.argv[1:]
-    if not foreign_reader.is_installed("module", writer):
-        print(f"'{writer}' is not installed: skipped")
-        return foreign_reader.SKIPPED
-    with tempfile.TemporaryDirectory() as name:
-        WRITERS[writer](Checker(program, Path(name)))
-    print(f"the surfaces that {writer} writes are read with their names")
-    return 0
+    return foreign_reader.run_writers(lambda writer, *where: WRITERS[writer](Checker(*where)),
+                                      "the surfaces that {} writes are read with their names")
 
 
 if __name__ == "__main__":

@@ -46,7 +46,8 @@ bdr_attribute_sets
 vertices
 12
 3
-0 0 0  1 0 0
+0 0 0
+1 0 0
 2 0 0
 0 1 0
 1 1 0
@@ -62,16 +63,9 @@ mfem_mesh_end
 what follows is not the mesh's
 )";
 
-/// The text above, its two vertices on a line put on lines of their own.
-std::string two_cubes() {
-  std::string text = kTwoCubes;
-  const std::string pair = "0 0 0  1 0 0";
-  return text.replace(text.find(pair), pair.size(), "0 0 0\n1 0 0");
-}
-
 std::string refusal(const std::string& find, const std::string& replace) {
   const TempFolder folder;
-  std::string text = two_cubes();
+  std::string text = kTwoCubes;
   text.replace(text.find(find), find.size(), replace);
   try {
     read_hex_mesh(folder.write("a.mesh", text));
@@ -84,7 +78,7 @@ std::string refusal(const std::string& find, const std::string& replace) {
 
 TEST(Mfem, AttributesAreCalledByTheirSmallestSet) {
   const TempFolder folder;
-  const HexMesh mesh = read_hex_mesh(folder.write("a.mesh", two_cubes()));
+  const HexMesh mesh = read_hex_mesh(folder.write("a.mesh", kTwoCubes));
   EXPECT_EQ(mesh.num_verts(), 12u);
   const SetTable table = make_set_table(mesh);
   ASSERT_EQ(table.regions.size(), 2u);
@@ -101,7 +95,7 @@ TEST(Mfem, AttributesAreCalledByTheirSmallestSet) {
 
 TEST(Mfem, AttributesWithoutANameAreKnownByTheirNumber) {
   const TempFolder folder;
-  std::string text = two_cubes();
+  std::string text = kTwoCubes;
   text.replace(text.find("v1.3"), 4, "v1.0");
   text.erase(text.find("attribute_sets"), text.find("boundary\n") - text.find("attribute_sets"));
   text.erase(text.find("bdr_attribute_sets"),

@@ -20,9 +20,8 @@ using test::TempFolder;
 using Points = std::multiset<std::array<double, 3>>;
 
 /// Name of a set -> the centres of its elements, whatever their order and numbers. All hexes must
-/// be unit cubes.
-std::map<std::string, Points> centres_by_name(const HexMesh& mesh, bool with_curves,
-                                              bool with_corners = true) {
+/// be unit cubes. `with_edges`: curves and corners too.
+std::map<std::string, Points> centres_by_name(const HexMesh& mesh, bool with_edges) {
   EXPECT_FALSE(mesh.find_problem());
   for (HexId h : mesh.hexes.ids()) EXPECT_NEAR(hex_volume(mesh.corners(h)), 1, 1e-9);
   std::map<std::string, Points> sets;
@@ -41,12 +40,12 @@ std::map<std::string, Points> centres_by_name(const HexMesh& mesh, bool with_cur
     add(set, [&](std::size_t h) { return mesh.hexes[HexId(h)]; });
   for (const NamedSet& set : table.patches)
     add(set, [&](std::size_t q) { return mesh.labels.quads[q].verts; });
-  if (with_curves)
+  if (with_edges) {
     for (const NamedSet& set : table.curves)
       add(set, [&](std::size_t e) { return mesh.labels.edges[e].verts; });
-  if (with_corners)
     for (const NamedSet& set : table.corners)
       add(set, [&](std::size_t c) { return std::array{mesh.labels.corners[c]}; });
+  }
   return sets;
 }
 
@@ -59,14 +58,14 @@ TEST(NamedMeshes, ComeBackFromEveryFormatThatIsRead) {
     const auto path =
         folder / (std::string("a.") + (format == std::string("abaqus") ? "inp" : "x"));
     const auto changed = write_hex_mesh(path, mesh, options).changed_names;
-    const bool with_corners = format != std::string("mfem"), with_curves = with_corners;
+    const bool with_edges = format != std::string("mfem");
     std::map<std::string, Points> expected;
-    for (auto& [name, points] : centres_by_name(mesh, with_curves, with_corners)) {
+    for (auto& [name, points] : centres_by_name(mesh, with_edges)) {
       const auto as_written = std::find_if(changed.begin(), changed.end(),
                                            [&](const auto& c) { return c.given == name; });
       expected[as_written == changed.end() ? name : as_written->written] = points;
     }
-    EXPECT_EQ(centres_by_name(read_hex_mesh(path), with_curves, with_corners), expected) << format;
+    EXPECT_EQ(centres_by_name(read_hex_mesh(path), with_edges), expected) << format;
   }
 }
 

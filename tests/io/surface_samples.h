@@ -64,7 +64,8 @@ inline constexpr const char* kNastranTetrahedron =
 inline std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files) {
   std::string out, directory;
   const auto put = [](std::string& to, auto value) { io::store(to, value, io::ByteOrder::Little); };
-  for (const auto& [name, bytes] : files) {
+  for (const auto& file : files) {
+    const std::string &name = file.first, &bytes = file.second;
     const auto header = std::uint32_t(out.size()), size = std::uint32_t(bytes.size());
     const auto checksum = std::uint32_t(
         crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));

@@ -104,16 +104,16 @@ Verts sorted(Verts verts) {
 
 }  // namespace
 
-template <class Verts, std::size_t N>
-void LabelCollector::Elements<Verts, N>::add(const std::string& set, const Verts& verts) {
+template <class Verts>
+void LabelCollector::Elements<Verts>::add(const std::string& set, const Verts& verts) {
   if (!seen.insert(sorted(verts)).second) return;
   const auto next = static_cast<std::int64_t>(set_to_tag.size()) + 1;
   list.emplace_back(verts, set_to_tag.try_emplace(set, next).first->second);
 }
 
-template <class Verts, std::size_t N>
-std::vector<std::int32_t> LabelCollector::Elements<Verts, N>::numbers(SetKind kind,
-                                                                      SetNames& names) const {
+template <class Verts>
+std::vector<std::int32_t> LabelCollector::Elements<Verts>::numbers(SetKind kind,
+                                                                   SetNames& names) const {
   std::map<std::int64_t, std::string> tags;
   for (const auto& [set, tag] : set_to_tag) tags[tag] = set;
   const auto tag_to_number = number_tags(kind, tags, names);

@@ -39,7 +39,7 @@ class LabelCollector {
   void settle(SetNames& names);
 
  private:
-  template <class Verts, std::size_t N>
+  template <class Verts>
   struct Elements {
     std::map<std::string, std::int64_t> set_to_tag;
     std::vector<std::pair<Verts, std::int64_t>> list;
@@ -53,8 +53,8 @@ class LabelCollector {
   std::set<std::string> names_of_elements() const;
 
   VolumeFile& file_;
-  Elements<std::array<VertId, 4>, 4> quads_;
-  Elements<std::array<VertId, 2>, 2> edges_;
+  Elements<std::array<VertId, 4>> quads_;
+  Elements<std::array<VertId, 2>> edges_;
   std::set<VertId> corners_;
   std::vector<std::pair<std::string, std::vector<VertId>>> node_sets_;
 };

@@ -20,7 +20,7 @@ class GmshReader {
       : in_(parse_gmsh(source.bytes, source.name)), name_(source.name) {}
 
   VolumeFile run() {
-    file_.positions = in_.positions;
+    file_.positions = std::move(in_.positions);
     file_.num_others = in_.num_others;
     for (const GmshElement& element : in_.elements) add_element(element);
     number_groups();

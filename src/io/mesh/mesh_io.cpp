@@ -151,7 +151,7 @@ void check_field_name(const HexField& field, const WriteHexOptions& options) {
     throw Error(ErrorCode::BadArgument, "the field name '" + name + "' " + what);
   };
   if (name.empty() || name.find_first_of(" \t\r\n\"<>&/") != std::string::npos)
-    refuse("is empty or has blanks, quotes or slashes");
+    refuse("is empty or has blanks, line ends, '\"', '<', '>', '&' or '/'; give another");
   if (name == "region" || (options.write_sets && (name == "patch" || name == "curve")))
     refuse("is that of the mesh's own numbers in the file; give another");
   if (std::ranges::count(options.fields, name, &HexField::name) > 1)

@@ -223,13 +223,8 @@ bool is_netcdf_classic(std::string_view bytes) {
 
 bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF\r\n\x1a\n"); }
 
-std::unique_ptr<NetcdfFile> open_netcdf_classic(std::string_view bytes,
-                                                const std::string& file_name) {
-  return std::make_unique<ClassicFile>(bytes, file_name);
-}
-
 std::unique_ptr<NetcdfFile> open_netcdf(std::string_view bytes, const std::string& file_name) {
-  if (is_netcdf_classic(bytes)) return open_netcdf_classic(bytes, file_name);
+  if (is_netcdf_classic(bytes)) return std::make_unique<ClassicFile>(bytes, file_name);
   if (is_hdf5(bytes)) return open_netcdf4(bytes, file_name);
   throw bad_file(file_name,
                  "this is no netCDF file, in which Exodus meshes lie; check what was exported");

@@ -18,7 +18,8 @@ class NetcdfFile {
 
   /// Absent when the file has none of this name.
   virtual std::optional<std::size_t> dimension(const std::string& name) const = 0;
-  /// Lengths of its dimensions; absent when the file has no such variable, or one of records.
+  /// Lengths of its dimensions; absent when the file has no such variable, or is a classic one and
+  /// has it for records.
   virtual std::optional<std::vector<std::size_t>> shape(const std::string& variable) const = 0;
   /// All entries, the last dimension fastest. Throws Error{BadFile} naming the variable.
   virtual std::vector<double> numbers(const std::string& variable) const = 0;
@@ -36,9 +37,7 @@ bool is_hdf5(std::string_view bytes);
 /// of netCDF-4 and the component is not there.
 std::unique_ptr<NetcdfFile> open_netcdf(std::string_view bytes, const std::string& file_name);
 
-/// Of the two kinds of files; the second says how to get the component where it is missing.
-std::unique_ptr<NetcdfFile> open_netcdf_classic(std::string_view bytes,
-                                                const std::string& file_name);
+/// Of a file of netCDF-4; says how to get the component where it is missing.
 std::unique_ptr<NetcdfFile> open_netcdf4(std::string_view bytes, const std::string& file_name);
 
 }  // namespace hexwright::io

@@ -23,7 +23,7 @@ class VtkXmlReader {
       throw bad_file(file_.name(), std::string("the file holds a '") +
                                        file_.root().attribute("type").value() +
                                        "', not an UnstructuredGrid or PolyData; export it as one");
-    read_data(grid.child("FieldData"), grid_.field_data, 0);
+    read_data(grid.child("FieldData"), grid_.field_data, 0, true);
     for (const auto piece : grid.children("Piece")) read_piece(piece);
     return std::move(grid_);
   }
@@ -46,11 +46,12 @@ class VtkXmlReader {
       grid_.positions.push_back(p);
     }
     if (wants_points_)
-      read_data(piece.child("PointData"), grid_.point_data, static_cast<std::size_t>(first_vert));
+      read_data(piece.child("PointData"), grid_.point_data, static_cast<std::size_t>(first_vert),
+                false);
     const std::size_t num_cells_before = grid_.ends.size();
     grid_.is_polygons ? read_polygons(piece, first_vert)
                       : read_cells(piece.child("Cells"), first_vert);
-    read_data(piece.child("CellData"), grid_.cell_data, num_cells_before);
+    read_data(piece.child("CellData"), grid_.cell_data, num_cells_before, false);
   }
 
   /// Vertices, lines, polygons and strips, each of which may be missing.
@@ -110,13 +111,15 @@ class VtkXmlReader {
   }
 
   /// Values are appended behind `num_before` entries of earlier pieces (0 where those had none).
-  /// Labels have one component; other arrays of cells are passed over, so that no number of
-  /// components that a file claims is ever multiplied by a number of cells.
-  void read_data(const pugi::xml_node& parent, VtkArrays& out, std::size_t num_before) {
+  /// Labels and sizes have one component; other arrays of cells and points are passed over, so that
+  /// no number of components that a file claims is ever multiplied by a number of cells. Field data
+  /// have rows, of several.
+  void read_data(const pugi::xml_node& parent, VtkArrays& out, std::size_t num_before,
+                 bool with_rows) {
     for (const auto node : parent.children("DataArray")) {
       if (std::strcmp(node.attribute("type").value(), "String") == 0) continue;
       const std::size_t num_components = node.attribute("NumberOfComponents").as_uint(1);
-      if (num_before > 0 && num_components != 1) continue;
+      if (!with_rows && num_components != 1) continue;
       VtkArray& array = out[node.attribute("Name").value()];
       array.num_components = num_components;
       array.values.resize(num_before * array.num_components);
